@@ -1,0 +1,5 @@
+//! Culbuto
+pub mod error;
+pub mod math;
+pub mod shapes;
+pub use error::{Error, Result};

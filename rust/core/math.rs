@@ -1,0 +1,212 @@
+//! Numbers and vectors: one scalar, two-dimensional vectors, poses, twists and wrenches.
+//!
+//! nalgebra supplies the vectors; the transcendental functions go through one place here (the `libm`
+//! crate), so that every platform gives the same bits.
+
+use bytemuck::{Pod, Zeroable};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The one scalar of the engine. There are no generics over it.
+pub type Real = f64;
+
+/// A vector or a point in the plane (SI units, y up).
+pub type Vec2 = nalgebra::Vector2<Real>;
+
+/// The vector (x, y).
+#[must_use]
+pub const fn vec2(x: Real, y: Real) -> Vec2 {
+    Vec2::new(x, y)
+}
+
+/// z component of the cross product a × b: positive when b lies counter-clockwise of a.
+#[must_use]
+pub fn cross(a: Vec2, b: Vec2) -> Real {
+    a.x * b.y - a.y * b.x
+}
+
+/// `v` turned by a quarter turn counter-clockwise: the velocity field of a unit spin at `v`.
+#[must_use]
+pub fn perp(v: Vec2) -> Vec2 {
+    vec2(-v.y, v.x)
+}
+
+/// (sin, cos) of an angle in radians, the same bits on every platform.
+#[must_use]
+pub fn sin_cos(angle: Real) -> (Real, Real) {
+    libm::sincos(angle)
+}
+
+/// Angle of a vector against +x, in (−π, π].
+#[must_use]
+pub fn atan2(y: Real, x: Real) -> Real {
+    libm::atan2(y, x)
+}
+
+/// e^x − 1 without cancellation for small x.
+#[must_use]
+pub fn exp_m1(x: Real) -> Real {
+    libm::expm1(x)
+}
+
+/// e^x.
+#[must_use]
+pub fn exp(x: Real) -> Real {
+    libm::exp(x)
+}
+
+/// ln(1 + x) without cancellation for small x.
+#[must_use]
+pub fn ln_1p(x: Real) -> Real {
+    libm::log1p(x)
+}
+
+/// x^y.
+#[must_use]
+pub fn powf(x: Real, y: Real) -> Real {
+    libm::pow(x, y)
+}
+
+/// A rotation as a unit complex number cos + i sin.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rot {
+    /// Cosine of the angle.
+    pub cos: Real,
+    /// Sine of the angle.
+    pub sin: Real,
+}
+
+impl Rot {
+    /// The rotation that turns nothing.
+    pub const IDENTITY: Self = Self { cos: 1.0, sin: 0.0 };
+
+    /// The rotation by `angle` radians, counter-clockwise.
+    #[must_use]
+    pub fn new(angle: Real) -> Self {
+        let (sin, cos) = sin_cos(angle);
+        Self { cos, sin }
+    }
+
+    /// `v` turned by this rotation.
+    #[must_use]
+    pub fn apply(self, v: Vec2) -> Vec2 {
+        vec2(self.cos * v.x - self.sin * v.y, self.sin * v.x + self.cos * v.y)
+    }
+
+    /// `v` turned back by this rotation.
+    #[must_use]
+    pub fn apply_inverse(self, v: Vec2) -> Vec2 {
+        vec2(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
+    }
+}
+
+/// Where a body is: a position and an angle. The angle is not wrapped, so that turns are counted
+/// and a fast spin keeps its full precision; the rotation is derived from it and always of unit length.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize, JsonSchema)]
+pub struct Pose {
+    /// Position (m).
+    #[schemars(with = "[Real; 2]")]
+    pub position: Vec2,
+    /// Angle (rad), counter-clockwise, unwrapped.
+    pub angle: Real,
+}
+
+impl Pose {
+    /// The origin, not turned.
+    pub const IDENTITY: Self = Self { position: vec2(0.0, 0.0), angle: 0.0 };
+
+    /// The pose at `position`, turned by `angle` radians.
+    #[must_use]
+    pub const fn new(position: Vec2, angle: Real) -> Self {
+        Self { position, angle }
+    }
+
+    /// The rotation of this pose.
+    #[must_use]
+    pub fn rot(&self) -> Rot {
+        if self.angle == 0.0 { Rot::IDENTITY } else { Rot::new(self.angle) }
+    }
+
+    /// A point given in this frame, in world coordinates.
+    #[must_use]
+    pub fn apply(&self, local: Vec2) -> Vec2 {
+        self.position + self.rot().apply(local)
+    }
+
+    /// A world point in the coordinates of this frame.
+    #[must_use]
+    pub fn apply_inverse(&self, world: Vec2) -> Vec2 {
+        self.rot().apply_inverse(world - self.position)
+    }
+}
+
+/// How a body moves: the velocity of its centre of mass and its angular velocity.
+/// The same three numbers serve for accelerations.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
+pub struct Twist {
+    /// Linear part (m/s).
+    pub linear: Vec2,
+    /// Angular part (rad/s), counter-clockwise.
+    pub angular: Real,
+}
+
+impl Twist {
+    /// At rest.
+    pub const ZERO: Self = Self { linear: vec2(0.0, 0.0), angular: 0.0 };
+
+    /// The twist with these parts.
+    #[must_use]
+    pub const fn new(linear: Vec2, angular: Real) -> Self {
+        Self { linear, angular }
+    }
+
+    /// Velocity of the point `arm` away from the centre of mass: v + ω × r.
+    #[must_use]
+    pub fn at(&self, arm: Vec2) -> Vec2 {
+        self.linear + self.angular * perp(arm)
+    }
+}
+
+/// What acts on a body: a force through its centre of mass and a torque about it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable, Serialize, Deserialize)]
+pub struct Wrench {
+    /// Force (N).
+    pub force: Vec2,
+    /// Torque (N·m), counter-clockwise.
+    pub torque: Real,
+}
+
+impl Wrench {
+    /// No force, no torque.
+    pub const ZERO: Self = Self { force: vec2(0.0, 0.0), torque: 0.0 };
+
+    /// The wrench with these parts.
+    #[must_use]
+    pub const fn new(force: Vec2, torque: Real) -> Self {
+        Self { force, torque }
+    }
+
+    /// The wrench of `force` acting `arm` away from the centre of mass: τ = r × F.
+    #[must_use]
+    pub fn at(force: Vec2, arm: Vec2) -> Self {
+        Self { force, torque: cross(arm, force) }
+    }
+}
+
+impl std::ops::AddAssign for Wrench {
+    fn add_assign(&mut self, other: Self) {
+        self.force += other.force;
+        self.torque += other.torque;
+    }
+}
+
+impl std::ops::Add for Wrench {
+    type Output = Self;
+    fn add(mut self, other: Self) -> Self {
+        self += other;
+        self
+    }
+}
