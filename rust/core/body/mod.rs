@@ -1,0 +1,23 @@
+//! Bodies: what the user writes ([`BodyDef`]), and the columns the engine works on ([`Bodies`]).
+//!
+//! What a step touches (pose, twist, mass) stands in parallel columns of small structs; what it
+//! rarely needs (shapes, names, what resists the motion) stands apart in [`Info`].
+
+mod columns;
+mod def;
+
+pub use columns::{Bodies, Info, Mass};
+pub use def::{BodyDef, BodyKind, DragWidth, Locks, Part};
+
+use crate::arena::{Handle, Named};
+
+/// A body of a world. Only its [`BodyHandle`] is ever held by the user.
+#[derive(Debug)]
+pub enum Body {}
+
+impl Named for Body {
+    const NAME: &'static str = "body";
+}
+
+/// Names a body.
+pub type BodyHandle = Handle<Body>;

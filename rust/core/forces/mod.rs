@@ -1,0 +1,185 @@
+//! What acts on bodies: gravity, constant and scheduled forces, the resistance of air, and fields a
+//! user adds. Whole columns in, whole columns out.
+
+mod drag;
+mod field;
+mod library;
+mod schedule;
+
+pub use drag::{Air, decay, decay_time};
+pub use field::{BodyColumns, BoxError, Field, FieldFacts, FieldHandle, ForceField};
+pub use library::{Attraction, BuiltInField, Central, Oscillating};
+pub use schedule::{ForceSchedule, Schedule, ScheduleHandle};
+
+use std::sync::Arc;
+
+use crate::arena::HandleMap;
+use crate::body::{Body, Info, Mass};
+use crate::error::{Error, Result};
+use crate::math::{Pose, Real, Twist, Vec2, Wrench};
+
+/// Energy that crossed the border of a world since it was made (J).
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Ledger {
+    /// Done on bodies by forces that have no potential.
+    pub work: Real,
+    /// Taken by drag and damping (negative where the wind gives more than it takes).
+    pub dissipated: Real,
+}
+
+/// Columns that a force evaluation fills; kept between steps so that a warm step allocates nothing.
+#[derive(Clone, Debug, Default)]
+pub struct ForceBuffers {
+    total: Vec<Wrench>,
+    work: Vec<Wrench>,
+}
+
+/// The forces on a run of bodies, as the methods see them. All slices have the same length, but for
+/// `steady`, which is empty where there are no steady forces.
+pub struct Forces<'a> {
+    /// Which body stands where, for fields that act on certain bodies.
+    pub handles: &'a HandleMap<Body>,
+    /// Masses of the bodies.
+    pub masses: &'a [Mass],
+    /// Their cold data: silhouettes, damping.
+    pub infos: &'a [Info],
+    /// Forces that stay the same over the span that is stepped, gravity apart.
+    pub steady: &'a [Wrench],
+    /// Gravity (m/s²).
+    pub gravity: Vec2,
+    /// The air.
+    pub air: Air,
+    /// Fields of the user's; they act on all bodies at once.
+    pub fields: &'a [Arc<dyn ForceField>],
+    /// Columns to work in.
+    pub buffers: &'a mut ForceBuffers,
+    /// Force evaluations so far.
+    pub evaluations: u64,
+}
+
+impl Forces<'_> {
+    /// Whether a force may change with the velocity (resistance apart, which the methods treat by
+    /// itself).
+    #[must_use]
+    pub fn velocity_dependent(&self) -> bool {
+        self.fields.iter().any(|field| field.facts().velocity_dependent)
+    }
+
+    /// Accelerations by everything but the air and damping, for methods that treat those exactly:
+    /// a = g + F/m, α = τ/I.
+    pub fn accelerate_without_resistance(
+        &mut self,
+        time: Real,
+        poses: &[Pose],
+        twists: &[Twist],
+        out: &mut [Twist],
+    ) -> Result<()> {
+        self.evaluations += 1;
+        let ForceBuffers { total, work } = &mut *self.buffers;
+        total.clear();
+        work.clear();
+        if !self.steady.is_empty() {
+            total.extend_from_slice(self.steady);
+            work.extend_from_slice(self.steady);
+        }
+        if !self.fields.is_empty() {
+            total.resize(poses.len(), Wrench::ZERO);
+            let bodies = BodyColumns { poses, twists, masses: self.masses, handles: self.handles };
+            for field in self.fields {
+                add_field(field.as_ref(), time, &bodies, total, work)?;
+            }
+        }
+        for (i, (a, mass)) in out.iter_mut().zip(self.masses).enumerate() {
+            let gravity = self.gravity.component_mul(&mass.gravity_scale);
+            *a = total.get(i).map_or(Twist::ZERO, |wrench| mass.acceleration(wrench));
+            a.linear += gravity;
+        }
+        Ok(())
+    }
+
+    /// Accelerations by everything, and the power that goes to work and to dissipation (W).
+    pub fn accelerate(
+        &mut self,
+        time: Real,
+        poses: &[Pose],
+        twists: &[Twist],
+        out: &mut [Twist],
+    ) -> Result<Ledger> {
+        self.accelerate_without_resistance(time, poses, twists, out)?;
+        let mut dissipated = 0.0;
+        for i in 0..poses.len() {
+            let state = (&poses[i], &twists[i]);
+            if let Some(resisting) =
+                drag::resistance(&self.masses[i], &self.infos[i], self.air, state)
+            {
+                let a = self.masses[i].acceleration(&resisting);
+                out[i].linear += a.linear;
+                out[i].angular += a.angular;
+                dissipated -= power(&resisting, &twists[i], &self.masses[i]);
+            }
+        }
+        Ok(Ledger { work: self.working_power(twists), dissipated })
+    }
+
+    /// Power (W) at which the forces of the last evaluation that have no potential do work on bodies
+    /// that move with `twists`.
+    #[must_use]
+    pub fn working_power(&self, twists: &[Twist]) -> Real {
+        let wrenches = self.buffers.work.iter();
+        wrenches.zip(twists).zip(self.masses).map(|((w, v), m)| power(w, v, m)).sum()
+    }
+
+    /// Moves the bodies for a time h with no force but the air's and damping, exactly, and returns
+    /// the energy those take (J). `h` may be negative for methods that step back.
+    pub fn drift(&self, h: Real, poses: &mut [Pose], twists: &mut [Twist]) -> Result<Real> {
+        let mut dissipated = 0.0;
+        for (i, (pose, twist)) in poses.iter_mut().zip(twists).enumerate() {
+            let (mass, info) = (&self.masses[i], &self.infos[i]);
+            if drag::resists(info, self.air) && mass.is_free() {
+                let before = mass.kinetic_energy(twist);
+                drag::drift(mass, info, self.air, (h, pose, twist))?;
+                dissipated += before - mass.kinetic_energy(twist);
+            } else {
+                pose.position += twist.linear * h;
+                pose.angle += twist.angular * h;
+            }
+        }
+        Ok(dissipated)
+    }
+}
+
+/// F·v + τω over what the body is free to do.
+fn power(wrench: &Wrench, twist: &Twist, mass: &Mass) -> Real {
+    let free = |inverse: Real, x: Real| if inverse > 0.0 { x } else { 0.0 };
+    free(mass.inverse.x, wrench.force.x * twist.linear.x)
+        + free(mass.inverse.y, wrench.force.y * twist.linear.y)
+        + free(mass.inverse_inertia, wrench.torque * twist.angular)
+}
+
+/// Adds one field's forces to `total`, and to `work` if the field has no potential.
+fn add_field(
+    field: &dyn ForceField,
+    time: Real,
+    bodies: &BodyColumns<'_>,
+    total: &mut [Wrench],
+    work: &mut Vec<Wrench>,
+) -> Result<()> {
+    let failed = |source| Error::Field { name: field.name().to_owned(), source };
+    if field.facts().conservative {
+        return field.add_forces(time, bodies, total).map_err(failed);
+    }
+    work.resize(total.len(), Wrench::ZERO);
+    if work.iter().all(|w| *w == Wrench::ZERO) {
+        field.add_forces(time, bodies, work).map_err(failed)?;
+        total.iter_mut().zip(work).for_each(|(sum, w)| *sum += *w);
+        return Ok(());
+    }
+    field.add_forces(time, bodies, work).map_err(failed)?;
+    field.add_forces(time, bodies, total).map_err(failed)
+}
+
+/// Whether air or damping act on a body; the plan sorts bodies by it.
+#[must_use]
+pub fn has_drag(info: &Info, air: Air) -> bool {
+    drag::has_drag(info, air)
+}

@@ -1,0 +1,336 @@
+//! DOP853: Dormand and Prince's Runge–Kutta method of order 8 with error control and dense output.
+//!
+//! E. Hairer, S. P. Nørsett, G. Wanner, "Solving Ordinary Differential Equations I" (1993),
+//! sections II.5 (method, error estimate eq. 10.17) and II.6 (dense output).
+
+use crate::error::{Error, Result};
+use crate::forces::Forces;
+use crate::math::{Pose, Real, Twist, powf};
+use crate::methods::dop853_table::{A, C, D, E3, E5};
+use crate::methods::first_order::{self, Columns};
+use crate::methods::{Facts, Method, Motion, Scratch, Span};
+
+/// Slopes of a step, its end included.
+const STAGES: usize = 13;
+/// Slopes with those that only dense output needs.
+const DENSE_STAGES: usize = 16;
+
+pub struct Dop853;
+
+static FACTS: Facts = Facts {
+    name: "dop853",
+    order: 8,
+    symplectic: false,
+    reversible: false,
+    exact_for_constant_force: true,
+    adaptive: true,
+    joints: false,
+    contacts: false,
+    about: "Dormand and Prince's method of order 8; with a tolerance it chooses its own step",
+};
+
+impl Method for Dop853 {
+    fn facts(&self) -> &'static Facts {
+        &FACTS
+    }
+
+    fn run(
+        &self,
+        forces: &mut Forces<'_>,
+        motion: &mut Motion<'_>,
+        span: Span,
+        scratch: &mut Scratch,
+    ) -> Result<()> {
+        let y = &mut scratch.flat;
+        y.load(motion, DENSE_STAGES);
+        for k in 0..span.substeps {
+            y.slope_of_state(0, forces, span.time(k))?;
+            stages(y, forces, span.time(k), span.h())?;
+            std::mem::swap(&mut y.state, &mut y.stage);
+        }
+        y.store(motion);
+        Ok(())
+    }
+}
+
+/// Slopes 1 to 11 and, in `y.stage`, the state at the end of a step whose slope 0 is there.
+fn stages(y: &mut Columns, forces: &mut Forces<'_>, time: Real, h: Real) -> Result<()> {
+    for j in 1..12 {
+        y.combine(h, A[j]);
+        y.slope_of_stage(j, forces, time + C[j] * h)?;
+    }
+    y.combine(h, A[12]);
+    Ok(())
+}
+
+/// What a run to a tolerance is asked for.
+pub struct Control<'a> {
+    /// Largest local error of a step, relative to the body's size or the way it went (positions), a
+    /// radian (angles), and the largest speeds so far.
+    pub tolerance: Real,
+    /// Sizes ℓ of the bodies (m).
+    pub sizes: &'a dyn Fn(usize) -> Real,
+    /// Moments at which the state is wanted, in seconds from the start of the span, increasing.
+    pub samples: &'a [Real],
+}
+
+/// What a run to a tolerance took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Progress {
+    /// Steps accepted.
+    pub steps: u64,
+    /// Steps tried again because their error was too large.
+    pub rejected: u64,
+    /// Smallest step accepted (s); infinite where there was none.
+    pub smallest: Real,
+    /// Sum of the local errors, in the units of the tolerance.
+    pub estimate: Real,
+}
+
+/// A run of DOP853 to a tolerance.
+pub struct Adaptive<'a> {
+    control: &'a Control<'a>,
+    scales: Vec<Scale>,
+    span: Span,
+    next_sample: usize,
+    progress: Progress,
+}
+
+/// What the error of a body is measured against.
+#[derive(Clone, Copy, Debug)]
+struct Scale {
+    start: Pose,
+    size: Real,
+    length: Real,
+    angle: Real,
+    speed: Real,
+    spin: Real,
+}
+
+impl<'a> Adaptive<'a> {
+    /// Prepares a run over `span` (its number of substeps does not matter).
+    #[must_use]
+    pub fn new(control: &'a Control<'a>, motion: &Motion<'_>, span: Span) -> Self {
+        let scale = |(i, start): (usize, &Pose)| {
+            let size = (control.sizes)(i);
+            Scale { start: *start, size, length: size, angle: 1.0, speed: 0.0, spin: 0.0 }
+        };
+        Self {
+            control,
+            scales: motion.poses.iter().enumerate().map(scale).collect(),
+            span,
+            next_sample: 0,
+            progress: Progress { smallest: Real::INFINITY, ..Progress::default() },
+        }
+    }
+
+    /// Runs to the end of the span; `sink` is called with the number of each sample and the state there.
+    ///
+    /// # Errors
+    /// Those of the user's fields; [`Error::Tolerance`] where no step is small enough.
+    pub fn run(
+        mut self,
+        forces: &mut Forces<'_>,
+        motion: &mut Motion<'_>,
+        scratch: &mut Scratch,
+        sink: &mut dyn FnMut(usize, &[Pose], &[Twist]),
+    ) -> Result<Progress> {
+        let y = &mut scratch.flat;
+        y.load(motion, DENSE_STAGES);
+        y.slope_of_state(0, forces, self.span.start)?;
+        let mut passed = 0.0;
+        let mut h = self.first_step(y);
+        let mut may_grow = true;
+        while passed < self.span.duration {
+            let rest = self.span.duration - passed;
+            // A last step that would leave a sliver takes it along.
+            let last = h >= rest * (1.0 - 1e-10);
+            h = if last { rest } else { h.min(rest) };
+            let time = self.span.start + passed;
+            self.refuse_tiny(h, passed)?;
+            stages(y, forces, time, h)?;
+            let error = self.error(y, h);
+            if !error.is_finite() || error > 1.0 {
+                self.progress.rejected += 1;
+                may_grow = false;
+                h *= if error.is_finite() { growth(error).min(1.0) } else { 1.0 / 3.0 };
+                continue;
+            }
+            let end = if last { self.span.end } else { time + h };
+            y.slope_of_stage(12, forces, end)?;
+            self.sample(y, forces, (passed, h, last), sink)?;
+            self.accept(y, h, error);
+            passed = if last { self.span.duration } else { passed + h };
+            h *= if may_grow { growth(error) } else { growth(error).min(1.0) };
+            may_grow = true;
+        }
+        y.store(motion);
+        Ok(self.progress)
+    }
+
+    /// A step over which velocities change little: tol^(1/8)·min |v|/|a|.
+    fn first_step(&self, y: &Columns) -> Real {
+        let (poses, twists) = first_order::split(&y.state);
+        let (_, accelerations) = first_order::split(&y.slopes[0]);
+        let mut time = self.span.duration;
+        for i in 0..poses.len() {
+            let (v, a) = (&twists[i], &accelerations[i]);
+            let pairs = [
+                (v.linear.norm(), a.linear.norm(), self.scales[i].size),
+                (v.angular.abs(), a.angular.abs(), 1.0),
+            ];
+            for (speed, change, length) in pairs.into_iter().filter(|pair| pair.1 > 0.0) {
+                let own = (speed / change).max(libm::sqrt(length / change));
+                time = if own > 0.0 { time.min(own) } else { time.min(self.span.duration / 100.0) };
+            }
+        }
+        time * powf(self.control.tolerance, 1.0 / 8.0)
+    }
+
+    /// No step that the world's time or the numbers of the state no longer resolve.
+    fn refuse_tiny(&self, h: Real, passed: Real) -> Result<()> {
+        let time = self.span.start + passed;
+        if h > 8.0 * Real::EPSILON * time.abs().max(self.span.duration) {
+            return Ok(());
+        }
+        Err(Error::Tolerance {
+            tolerance: self.control.tolerance,
+            time,
+            why: format!(
+                "the step fell to {h:.1e} s after {} steps; a larger tolerance, or a force without jumps, would do",
+                self.progress.steps
+            ),
+        })
+    }
+
+    /// Local error of a step over the tolerance: |h|·e₅²/√(e₅² + 0.01 e₃²), e₅ and e₃ the largest
+    /// over all bodies, so that the worst body keeps the tolerance, not the average one.
+    fn error(&mut self, y: &Columns, h: Real) -> Real {
+        let n = first_order::bodies(&y.state);
+        let (poses, twists) = first_order::split(&y.state);
+        let (new_poses, new_twists) = first_order::split(&y.stage);
+        let mut worst = [0.0; 2];
+        for i in 0..n {
+            let scale = &mut self.scales[i];
+            scale.grow(&poses[i], &twists[i], h);
+            scale.grow(&new_poses[i], &new_twists[i], h);
+            for (worst, weights) in worst.iter_mut().zip([&E5, &E3]) {
+                let error = |component: usize| -> Real {
+                    weights.iter().zip(&y.slopes).map(|(w, slope)| w * slope[component]).sum()
+                };
+                *worst = Real::max(*worst, scale.relative(i, n, self.span.duration, error));
+            }
+        }
+        let [e5, e3] = worst;
+        if e5 == 0.0 && e3 == 0.0 {
+            return 0.0;
+        }
+        h / self.control.tolerance * e5 * e5 / libm::sqrt(e5 * e5 + 0.01 * e3 * e3)
+    }
+
+    /// Hands out the samples that fall into the step.
+    fn sample(
+        &mut self,
+        y: &mut Columns,
+        forces: &mut Forces<'_>,
+        (passed, h, last): (Real, Real, bool),
+        sink: &mut dyn FnMut(usize, &[Pose], &[Twist]),
+    ) -> Result<()> {
+        let until = if last { Real::INFINITY } else { passed + h };
+        let mut dense: Option<Dense> = None;
+        while let Some(&at) = self.control.samples.get(self.next_sample).filter(|at| **at <= until)
+        {
+            if dense.is_none() {
+                dense = Some(Dense::new(y, forces, self.span.start + passed, h)?);
+            }
+            let state = dense.as_ref().map_or_else(Vec::new, |d| d.at((at - passed) / h));
+            let (poses, twists) = first_order::split(&state);
+            sink(self.next_sample, poses, twists);
+            self.next_sample += 1;
+        }
+        Ok(())
+    }
+
+    /// The end of the step becomes the state; its slope is the next step's first.
+    fn accept(&mut self, y: &mut Columns, h: Real, error: Real) {
+        std::mem::swap(&mut y.state, &mut y.stage);
+        y.slopes.swap(0, 12);
+        self.progress.steps += 1;
+        self.progress.smallest = self.progress.smallest.min(h);
+        self.progress.estimate += error * self.control.tolerance;
+    }
+}
+
+/// Factor from this step to the next: 0.9·error^(−1/8) within [1/3, 6].
+fn growth(error: Real) -> Real {
+    if error == 0.0 { 6.0 } else { (0.9 * powf(error, -1.0 / 8.0)).clamp(1.0 / 3.0, 6.0) }
+}
+
+impl Scale {
+    /// The way and the speeds grow with the run; nothing here depends on where the origin is.
+    fn grow(&mut self, pose: &Pose, twist: &Twist, h: Real) {
+        let way = (pose.position - self.start.position).norm();
+        self.length = self.length.max(way).max(twist.linear.norm() * h);
+        self.angle = self.angle.max((pose.angle - self.start.angle).abs());
+        self.speed = self.speed.max(twist.linear.norm()).max(self.size * twist.angular.abs());
+        self.spin = self.spin.max(twist.angular.abs());
+    }
+
+    /// Largest relative error of body i of n. Speeds also count against a length over the whole
+    /// duration, so that a body that rests but for rounding does not ask for tiny steps.
+    fn relative(&self, i: usize, n: usize, duration: Real, error: impl Fn(usize) -> Real) -> Real {
+        let (q, v) = (3 * i, 3 * (n + i));
+        let speed = self.speed.max(self.length / duration);
+        let spin = self.spin.max(self.angle / duration);
+        let parts = [
+            (libm::hypot(error(q), error(q + 1)), self.length),
+            (error(q + 2).abs(), self.angle),
+            (libm::hypot(error(v), error(v + 1)), speed),
+            (error(v + 2).abs(), spin),
+        ];
+        let relative = |(e, scale): (Real, Real)| if e == 0.0 { 0.0 } else { e / scale };
+        parts.into_iter().map(relative).fold(0.0, Real::max)
+    }
+}
+
+/// The interpolant of order 7 over one step.
+struct Dense {
+    start: Vec<Real>,
+    coefficients: [Vec<Real>; 7],
+}
+
+impl Dense {
+    /// Needs slopes 0 to 12, the state and, in `y.stage`, the end of the step, which stays there.
+    fn new(y: &mut Columns, forces: &mut Forces<'_>, time: Real, h: Real) -> Result<Self> {
+        let end = y.stage.clone();
+        for j in STAGES..DENSE_STAGES {
+            y.combine(h, A[j]);
+            y.slope_of_stage(j, forces, time + C[j] * h)?;
+        }
+        y.stage.copy_from_slice(&end);
+        let (start, first, last) = (&y.state, &y.slopes[0], &y.slopes[12]);
+        let column = |f: &dyn Fn(usize) -> Real| (0..start.len()).map(f).collect::<Vec<_>>();
+        let high = |row: &[Real; DENSE_STAGES], i: usize| -> Real {
+            h * row.iter().zip(&y.slopes).map(|(d, slope)| d * slope[i]).sum::<Real>()
+        };
+        let coefficients = [
+            column(&|i| end[i] - start[i]),
+            column(&|i| h * first[i] - (end[i] - start[i])),
+            column(&|i| 2.0 * (end[i] - start[i]) - h * (last[i] + first[i])),
+            column(&|i| high(&D[0], i)),
+            column(&|i| high(&D[1], i)),
+            column(&|i| high(&D[2], i)),
+            column(&|i| high(&D[3], i)),
+        ];
+        Ok(Self { start: start.clone(), coefficients })
+    }
+
+    /// The state at a fraction of the step: y₀ + x(F₁ + (1 − x)(F₂ + x(F₃ + (1 − x)(…)))).
+    fn at(&self, x: Real) -> Vec<Real> {
+        let value = |i: usize| {
+            let nested = self.coefficients.iter().enumerate().rev();
+            nested.fold(0.0, |sum, (j, f)| (sum + f[i]) * if j % 2 == 0 { x } else { 1.0 - x })
+        };
+        (0..self.start.len()).map(|i| self.start[i] + value(i)).collect()
+    }
+}

@@ -1,0 +1,46 @@
+//! Explicit Euler: x += v·h, v += a·h, both from the state before the step. For teaching: it gains
+//! energy on every orbit, and a thrown ball flies too far.
+
+use crate::error::Result;
+use crate::forces::Forces;
+use crate::math::Twist;
+use crate::methods::{Facts, Method, Motion, Scratch, Span, drift, kick};
+
+pub struct ExplicitEuler;
+
+static FACTS: Facts = Facts {
+    name: "explicit_euler",
+    order: 1,
+    symplectic: false,
+    reversible: false,
+    exact_for_constant_force: false,
+    adaptive: false,
+    joints: false,
+    contacts: false,
+    about: "x += v·h, then v += a·h, both from the old state; for teaching",
+};
+
+impl Method for ExplicitEuler {
+    fn facts(&self) -> &'static Facts {
+        &FACTS
+    }
+
+    fn run(
+        &self,
+        forces: &mut Forces<'_>,
+        motion: &mut Motion<'_>,
+        span: Span,
+        scratch: &mut Scratch,
+    ) -> Result<()> {
+        let accelerations = &mut scratch.accelerations;
+        accelerations.resize(motion.poses.len(), Twist::ZERO);
+        for k in 0..span.substeps {
+            let power =
+                forces.accelerate(span.time(k), motion.poses, motion.twists, accelerations)?;
+            motion.ledger.book(power, span.h());
+            drift(motion.poses, motion.twists, span.h());
+            kick(motion.twists, accelerations, span.h());
+        }
+        Ok(())
+    }
+}

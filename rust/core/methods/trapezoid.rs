@@ -1,0 +1,47 @@
+//! The trapezoid of a beginner's textbook: v₁ = v₀ + a·h, x += ½(v₀ + v₁)h. Exact for a constant
+//! force, first order for any other, because the velocity is still Euler's.
+
+use crate::error::Result;
+use crate::forces::Forces;
+use crate::math::Twist;
+use crate::methods::{Facts, Method, Motion, Scratch, Span, drift, kick};
+
+pub struct Trapezoid;
+
+static FACTS: Facts = Facts {
+    name: "trapezoid",
+    order: 1,
+    symplectic: false,
+    reversible: false,
+    exact_for_constant_force: true,
+    adaptive: false,
+    joints: false,
+    contacts: false,
+    about: "v₁ = v₀ + a·h, then x += ½(v₀ + v₁)·h; for teaching",
+};
+
+impl Method for Trapezoid {
+    fn facts(&self) -> &'static Facts {
+        &FACTS
+    }
+
+    fn run(
+        &self,
+        forces: &mut Forces<'_>,
+        motion: &mut Motion<'_>,
+        span: Span,
+        scratch: &mut Scratch,
+    ) -> Result<()> {
+        let accelerations = &mut scratch.accelerations;
+        accelerations.resize(motion.poses.len(), Twist::ZERO);
+        for k in 0..span.substeps {
+            let power =
+                forces.accelerate(span.time(k), motion.poses, motion.twists, accelerations)?;
+            motion.ledger.book(power, span.h());
+            drift(motion.poses, motion.twists, span.h() / 2.0);
+            kick(motion.twists, accelerations, span.h());
+            drift(motion.poses, motion.twists, span.h() / 2.0);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,145 @@
+//! What can be measured on a world: energy, momentum, angular momentum.
+
+use serde::Serialize;
+
+use crate::body::Mass;
+use crate::error::{Error, Result};
+use crate::forces::{BodyColumns, ForceField};
+use crate::math::{Pose, Real, Twist, Vec2, Wrench, cross, vec2};
+use crate::world::World;
+
+/// Where a world's energy is (J). `total − work + dissipated` stays what it was, whatever happens.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Energy {
+    /// Σ ½mv² + ½Iω².
+    pub kinetic: Real,
+    /// In gravity, against the origin, and in fields that have a potential.
+    pub potential: Real,
+    /// Done on the bodies by forces without a potential, since the world was made.
+    pub work: Real,
+    /// Taken by drag and damping, since the world was made.
+    pub dissipated: Real,
+}
+
+impl Energy {
+    /// Kinetic and potential energy.
+    #[must_use]
+    pub fn total(&self) -> Real {
+        self.kinetic + self.potential
+    }
+
+    /// What the laws say stays the same: total − work + dissipated.
+    #[must_use]
+    pub fn balance(&self) -> Real {
+        self.total() - self.work + self.dissipated
+    }
+}
+
+impl World {
+    /// The energies.
+    ///
+    /// # Errors
+    /// A field whose potential fails.
+    pub fn energy(&self) -> Result<Energy> {
+        let ledger = self.ledger();
+        let kinetic = self.dynamic().map(|(_, twist, mass)| mass.kinetic_energy(twist)).sum();
+        let gravity = self.settings().gravity;
+        let in_gravity = |(pose, _, mass): (&Pose, &Twist, &Mass)| {
+            -mass.mass * gravity.component_mul(&mass.gravity_scale).dot(&pose.position)
+        };
+        let mut potential: Real = self.dynamic().map(in_gravity).sum();
+        for field in self.fields() {
+            let own = field.potential(self.time(), &self.columns());
+            potential += own.map_err(failed(field.as_ref()))?.unwrap_or(0.0);
+        }
+        Ok(Energy { kinetic, potential, work: ledger.work, dissipated: ledger.dissipated })
+    }
+
+    /// Σ mv over the dynamic bodies (kg·m/s).
+    #[must_use]
+    pub fn momentum(&self) -> Vec2 {
+        self.dynamic().map(|(_, twist, mass)| mass.mass * twist.linear).sum()
+    }
+
+    /// Σ m(r − p) × v + Iω over the dynamic bodies (kg·m²/s), about the point p.
+    #[must_use]
+    pub fn angular_momentum(&self, about: Vec2) -> Real {
+        let of_body = |(pose, twist, mass): (&Pose, &Twist, &Mass)| {
+            let spin = if mass.inverse_inertia > 0.0 { mass.inertia * twist.angular } else { 0.0 };
+            mass.mass * cross(pose.position - about, twist.linear) + spin
+        };
+        self.dynamic().map(of_body).sum()
+    }
+
+    /// Σ m over the dynamic bodies (kg).
+    #[must_use]
+    pub fn mass(&self) -> Real {
+        self.dynamic().map(|(_, _, mass)| mass.mass).sum()
+    }
+
+    /// Centre of mass of the dynamic bodies (m); the origin where there is none.
+    #[must_use]
+    pub fn center_of_mass(&self) -> Vec2 {
+        let mass = self.mass();
+        if mass == 0.0 {
+            return vec2(0.0, 0.0);
+        }
+        // About the first body, so that a distant origin costs no digits.
+        let origin = self.dynamic().next().map_or(vec2(0.0, 0.0), |(pose, _, _)| pose.position);
+        let sum: Vec2 = self.dynamic().map(|(pose, _, m)| m.mass * (pose.position - origin)).sum();
+        origin + sum / mass
+    }
+
+    /// Largest net force and net torque of the fields that say they obey Newton's third law, over
+    /// the sum of the forces: 0 to rounding where they speak the truth. None without such a field.
+    ///
+    /// # Errors
+    /// A field that fails.
+    pub fn third_law_residual(&self) -> Result<Option<Real>> {
+        let center = self.center_of_mass();
+        let mut worst = None;
+        for field in self.fields().iter().filter(|field| field.facts().internal) {
+            let mut wrenches = vec![Wrench::ZERO; self.bodies().len()];
+            let added = field.add_forces(self.time(), &self.columns(), &mut wrenches);
+            added.map_err(failed(field.as_ref()))?;
+            let own = net_over_sum(&wrenches, &self.bodies().poses, center);
+            worst = Some(own.max(worst.unwrap_or(0.0)));
+        }
+        Ok(worst)
+    }
+
+    fn columns(&self) -> BodyColumns<'_> {
+        let bodies = self.bodies();
+        BodyColumns {
+            poses: &bodies.poses,
+            twists: &bodies.twists,
+            masses: &bodies.masses,
+            handles: bodies.map(),
+        }
+    }
+
+    /// Bodies that obey Newton's laws.
+    fn dynamic(&self) -> impl Iterator<Item = (&Pose, &Twist, &Mass)> {
+        let bodies = self.bodies();
+        let columns = bodies.poses.iter().zip(&bodies.twists).zip(&bodies.masses);
+        let columns = columns.zip(&bodies.infos).filter(|(_, info)| info.def.is_dynamic());
+        columns.map(|(((pose, twist), mass), _)| (pose, twist, mass))
+    }
+}
+
+fn failed(field: &dyn ForceField) -> impl FnOnce(crate::forces::BoxError) -> Error + '_ {
+    |source| Error::Field { name: field.name().to_owned(), source }
+}
+
+/// |Σ F|/Σ|F| and |Σ τ|/Σ|r||F|, the larger of the two.
+fn net_over_sum(wrenches: &[Wrench], poses: &[Pose], center: Vec2) -> Real {
+    let (mut net, mut sum) = (Wrench::ZERO, Wrench::ZERO);
+    for (wrench, pose) in wrenches.iter().zip(poses) {
+        let arm = pose.position - center;
+        net += Wrench::new(wrench.force, cross(arm, wrench.force) + wrench.torque);
+        sum.force.x += wrench.force.norm();
+        sum.torque += arm.norm() * wrench.force.norm() + wrench.torque.abs();
+    }
+    let ratio = |x: Real, of: Real| if x == 0.0 { 0.0 } else { x / of };
+    ratio(net.force.norm(), sum.force.x).max(ratio(net.torque.abs(), sum.torque))
+}

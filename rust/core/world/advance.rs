@@ -1,0 +1,186 @@
+//! Time to a tolerance instead of at a step.
+
+use crate::error::{Error, Result, check};
+use crate::math::{Pose, Real, Twist};
+use crate::methods::{Adaptive, Control, Progress, Span};
+use crate::world::{StepReport, Trajectory, World, step};
+
+impl World {
+    /// Moves the world on by a duration (s), to a tolerance (relative, 1e-15 to 0.1).
+    ///
+    /// Bodies under constant forces take the exact solution; every other island takes DOP853 at the
+    /// steps its own error asks for. The local error of each step is kept below the tolerance times
+    /// the body's size or the way it went (positions), a radian (angles), its largest speeds so far
+    /// (velocities); the report's estimate is the sum of those errors.
+    ///
+    /// # Errors
+    /// A number that is not allowed, a field that fails, a tolerance that cannot be reached. The world
+    /// is then as it was before the call.
+    pub fn advance(&mut self, duration: Real, tolerance: Real) -> Result<&StepReport> {
+        self.advance_sampled(duration, tolerance, &[])?;
+        Ok(&self.report)
+    }
+
+    /// The same, handing out the motion at given times (s from now, increasing, within the duration).
+    pub fn advance_sampled(
+        &mut self,
+        duration: Real,
+        tolerance: Real,
+        times: &[Real],
+    ) -> Result<Trajectory> {
+        check::positive("duration", duration)?;
+        if !(1e-15..=0.1).contains(&tolerance) {
+            return Err(Error::invalid("tolerance", tolerance, "1e-15 to 0.1"));
+        }
+        for (i, time) in times.iter().enumerate() {
+            let before = i.checked_sub(1).map_or(0.0, |j| times[j]);
+            if !(before..=duration).contains(time) {
+                return Err(Error::invalid(
+                    format!("times[{i}]"),
+                    time,
+                    format!("increasing times from 0 to {duration}"),
+                ));
+            }
+        }
+        self.attempt(|world| {
+            world.planned();
+            let mut trajectory = Trajectory::new(times.to_vec(), &world.state.bodies);
+            let start = world.time();
+            world.report.estimate = Some(0.0);
+            world.each_span(duration, |world, span| {
+                world.advance_to_tolerance(span, tolerance, (start, &mut trajectory))
+            })?;
+            world.finish(duration)?;
+            trajectory.to_frames(&world.state.bodies);
+            trajectory.shift(start);
+            Ok(trajectory)
+        })
+    }
+
+    fn advance_to_tolerance(
+        &mut self,
+        span: Span,
+        tolerance: Real,
+        (start, trajectory): (Real, &mut Trajectory),
+    ) -> Result<()> {
+        let passed = span.start - start;
+        let samples = trajectory.within(passed, passed + span.duration);
+        self.sample_closed(passed, samples.clone(), trajectory);
+        self.advance_closed(span.duration);
+        let plan = self.plan.take().unwrap_or_default();
+        let runs: Vec<_> = if plan.together {
+            vec![0..self.state.bodies.len()]
+        } else {
+            plan.single.iter().map(|&i| i..i + 1).collect()
+        };
+        self.plan = Some(plan);
+        let times: Vec<Real> =
+            trajectory.times[samples.clone()].iter().map(|t| t - passed).collect();
+        let mut worst: Real = 0.0;
+        for run in runs {
+            let first = run.start;
+            let mut sink = |k: usize, poses: &[Pose], twists: &[Twist]| {
+                trajectory.write(samples.start + k, first, poses, twists);
+            };
+            let progress = self.run_to_tolerance(run, span, (tolerance, &times), &mut sink)?;
+            worst = worst.max(progress.estimate);
+        }
+        self.report.estimate = self.report.estimate.map(|sum| sum + worst);
+        Ok(())
+    }
+
+    /// Runs DOP853 on a run of bodies and books what it took.
+    fn run_to_tolerance(
+        &mut self,
+        run: std::ops::Range<usize>,
+        span: Span,
+        (tolerance, samples): (Real, &[Real]),
+        sink: &mut dyn FnMut(usize, &[Pose], &[Twist]),
+    ) -> Result<Progress> {
+        let (mut forces, mut motion, scratch) = self.split(run);
+        let infos = forces.infos;
+        let control = Control { tolerance, sizes: &|i| infos[i].size, samples };
+        let adaptive = Adaptive::new(&control, &motion, span);
+        let progress = adaptive.run(&mut forces, &mut motion, scratch, sink)?;
+        let evaluations = forces.evaluations;
+        self.report.evaluations += evaluations;
+        self.report.steps += progress.steps;
+        self.report.rejected += progress.rejected;
+        self.report.smallest_step = self.report.smallest_step.min(progress.smallest);
+        Ok(progress)
+    }
+
+    /// Samples of the bodies whose solution is known, and of those that rest.
+    fn sample_closed(
+        &mut self,
+        passed: Real,
+        samples: std::ops::Range<usize>,
+        trajectory: &mut Trajectory,
+    ) {
+        let bodies = &self.state.bodies;
+        for k in samples {
+            trajectory.write(k, 0, &bodies.poses, &bodies.twists);
+            let h = trajectory.times[k] - passed;
+            for &i in self.plan.as_ref().map_or(&[][..], |plan| &plan.closed) {
+                let (mut pose, mut twist) = (bodies.poses[i], bodies.twists[i]);
+                let settings = &self.state.settings;
+                let constant = step::constant(bodies, &self.scratch.steady, settings, i);
+                let mut ledger = self.state.ledger;
+                constant.advance(h, &mut pose, &mut twist, &mut ledger);
+                trajectory.write(k, i, &[pose], &[twist]);
+            }
+        }
+    }
+
+    /// `count` steps of dt, keeping the motion after every `every` of them, the start included.
+    ///
+    /// # Errors
+    /// Those of [`World::steps`]; the world is then as it was before the call.
+    pub fn record(&mut self, dt: Real, count: u32, every: u32) -> Result<Trajectory> {
+        check::positive("dt", dt)?;
+        if every == 0 {
+            return Err(Error::invalid("every", every, "1 or more"));
+        }
+        self.attempt(|world| {
+            let samples = count / every + 1;
+            let mut trajectory = Trajectory::new(vec![0.0; samples as usize], &world.state.bodies);
+            for k in 0..samples {
+                if k > 0 {
+                    (0..every).try_for_each(|_| world.tick(dt))?;
+                }
+                let bodies = &world.state.bodies;
+                trajectory.times[k as usize] = world.state.clock.now;
+                trajectory.write(k as usize, 0, &bodies.poses, &bodies.twists);
+            }
+            (0..count % every).try_for_each(|_| world.tick(dt))?;
+            trajectory.to_frames(&world.state.bodies);
+            Ok(trajectory)
+        })
+    }
+
+    /// `count` steps of dt with an estimate of the error they leave, by running them again at half
+    /// the substep (Richardson): |x(h) − x(h/2)|/(2^p − 1)·2^p relative to size or way, the largest over
+    /// the bodies at the end. Costs three times as much.
+    pub fn steps_with_estimate(&mut self, dt: Real, count: u32) -> Result<&StepReport> {
+        let before = self.snapshot();
+        let substeps = self.state.settings.substeps;
+        self.set_substeps(2 * substeps)?;
+        let fine = self.steps(dt, count);
+        let end = self.state.bodies.poses.clone();
+        self.restore(&before);
+        fine?;
+        let start = self.state.bodies.poses.clone();
+        self.steps(dt, count)?;
+        let gain = libm::exp2(Real::from(self.method.facts().order));
+        let bodies = &self.state.bodies;
+        let error = |i: usize| -> Real {
+            let (a, b, size) = (&bodies.poses[i], &end[i], bodies.infos[i].size);
+            let apart = (a.position - b.position).norm() + size * (a.angle - b.angle).abs();
+            let way = (b.position - start[i].position).norm().max(size);
+            if apart == 0.0 { 0.0 } else { apart / way }
+        };
+        let worst = (0..bodies.len()).map(error).fold(0.0, Real::max);
+        self.report.estimate = Some(worst * gain / (gain - 1.0));
+        Ok(&self.report)
+    }
+}

@@ -1,0 +1,296 @@
+//! The [`World`]: one object that owns everything.
+
+mod advance;
+mod bodies;
+mod columns;
+mod plan;
+mod report;
+mod snapshot;
+mod step;
+mod stepper;
+
+pub use bodies::{BodyMut, BodyRef};
+pub use columns::Column;
+pub use plan::Plan;
+pub use report::{StageTime, StepReport, Trajectory};
+pub use snapshot::Snapshot;
+pub use stepper::{Frame, Stepper};
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::arena::{Arena, HandleMap};
+use crate::body::Bodies;
+use crate::error::{Error, Result, check};
+use crate::forces::{Air, Field, FieldHandle, ForceBuffers, ForceField, ForceSchedule, Ledger};
+use crate::forces::{Schedule, ScheduleHandle};
+use crate::math::{Real, Vec2, vec2};
+use crate::methods::{self, Method, Scratch};
+
+/// What holds for the whole world.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Settings {
+    /// Gravity (m/s²).
+    pub gravity: Vec2,
+    /// The air.
+    pub air: Air,
+    /// Name of the method that moves bodies at a fixed step.
+    pub method: String,
+    /// Into how many equal substeps a step is divided.
+    pub substeps: u32,
+    /// Bodies under constant forces take the exact solution, whatever the method.
+    pub closed_form: bool,
+    /// Each stage of a step is timed. Costs about as much as the step of one free body.
+    pub timing: bool,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            gravity: vec2(0.0, -9.81),
+            air: Air::default(),
+            method: "leapfrog".into(),
+            substeps: 4,
+            closed_form: true,
+            timing: false,
+        }
+    }
+}
+
+/// World time with the part that a sum in floating point leaves behind (Kahan), so that a million
+/// steps of 1/60 s end where they should.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Clock {
+    now: Real,
+    behind: Real,
+}
+
+impl Clock {
+    fn after(self, h: Real) -> Self {
+        let step = h - self.behind;
+        let now = self.now + step;
+        Self { now, behind: (now - self.now) - step }
+    }
+}
+
+/// All of a world that a snapshot holds, the user's own fields apart.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct State {
+    settings: Settings,
+    bodies: Bodies,
+    schedules: Arena<Schedule>,
+    field_map: HandleMap<Field>,
+    clock: Clock,
+    ledger: Ledger,
+}
+
+/// Bodies, and the laws they move by.
+///
+/// ```
+/// use culbuto::{BodyDef, World, math::vec2, shapes::Shape};
+///
+/// let mut world = World::new(vec2(0.0, -9.81))?;
+/// let ball = BodyDef { velocity: vec2(12.0, 9.0), ..BodyDef::new(Shape::circle(0.1)?) };
+/// let ball = world.add_body(ball)?;
+/// world.steps(1.0 / 60.0, 120)?;
+/// let position = world.body(ball)?.position();
+/// assert!((position - vec2(24.0, -1.62)).norm() < 1e-12);
+/// # Ok::<(), culbuto::Error>(())
+/// ```
+#[derive(Clone)]
+pub struct World {
+    state: State,
+    fields: Vec<Arc<dyn ForceField>>,
+    method: &'static dyn Method,
+    plan: Option<Plan>,
+    /// Some body has a force for the next step.
+    applied: bool,
+    report: StepReport,
+    scratch: WorldScratch,
+}
+
+/// Columns a step works in; no part of the state.
+#[derive(Clone, Default)]
+struct WorldScratch {
+    backup: step::Backup,
+    steady: Vec<crate::math::Wrench>,
+    forces: ForceBuffers,
+    methods: Scratch,
+}
+
+impl Default for World {
+    fn default() -> Self {
+        Self::from_state(State::default(), Vec::new())
+    }
+}
+
+impl std::fmt::Debug for World {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("World")
+            .field("time", &self.time())
+            .field("bodies", &self.bodies().len())
+            .field("settings", self.settings())
+            .finish_non_exhaustive()
+    }
+}
+
+/// Making a world, and what holds for all of it.
+impl World {
+    /// An empty world with this gravity (m/s²).
+    pub fn new(gravity: Vec2) -> Result<Self> {
+        let mut world = Self::default();
+        world.set_gravity(gravity)?;
+        Ok(world)
+    }
+
+    fn from_state(state: State, fields: Vec<Arc<dyn ForceField>>) -> Self {
+        // OK because the setter lets only names of the registry in, and reading a snapshot checks it.
+        let method = methods::method(&state.settings.method).unwrap_or(methods::REGISTRY[0]);
+        Self {
+            state,
+            fields,
+            method,
+            plan: None,
+            applied: true,
+            report: StepReport::default(),
+            scratch: WorldScratch::default(),
+        }
+    }
+
+    /// The settings.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.state.settings
+    }
+
+    /// World time (s).
+    #[must_use]
+    pub fn time(&self) -> Real {
+        self.state.clock.now
+    }
+
+    /// Sets the world time (s). Schedules and fields that depend on time go by it.
+    pub fn set_time(&mut self, time: Real) -> Result<()> {
+        self.state.clock = Clock { now: check::finite("time", time)?, behind: 0.0 };
+        Ok(())
+    }
+
+    /// Sets gravity (m/s²).
+    pub fn set_gravity(&mut self, gravity: Vec2) -> Result<()> {
+        self.state.settings.gravity = check::finite_vec("gravity", gravity)?;
+        Ok(())
+    }
+
+    /// Sets the air: its density (kg/m²) and its velocity (m/s).
+    pub fn set_air(&mut self, air: Air) -> Result<()> {
+        check::not_negative("air density", air.density)?;
+        check::finite_vec("wind", air.wind)?;
+        self.state.settings.air = air;
+        self.plan = None;
+        Ok(())
+    }
+
+    /// Chooses the method of fixed steps by name; [`methods::REGISTRY`] lists them.
+    pub fn set_method(&mut self, name: &str) -> Result<()> {
+        self.method = methods::method(name)?;
+        name.clone_into(&mut self.state.settings.method);
+        self.plan = None;
+        Ok(())
+    }
+
+    /// Into how many equal substeps a step is divided (1 to 65536).
+    pub fn set_substeps(&mut self, substeps: u32) -> Result<()> {
+        if !(1..=65_536).contains(&substeps) {
+            return Err(Error::invalid("substeps", substeps, "1 to 65536"));
+        }
+        self.state.settings.substeps = substeps;
+        Ok(())
+    }
+
+    /// Whether bodies under constant forces take the exact solution (default), whatever the method.
+    /// Off, the method moves them too, with the errors it has: for teaching.
+    pub fn set_closed_form(&mut self, on: bool) {
+        self.state.settings.closed_form = on;
+        self.plan = None;
+    }
+
+    /// Whether each stage of a step is timed.
+    pub fn set_timing(&mut self, on: bool) {
+        self.state.settings.timing = on;
+    }
+
+    /// The bodies' columns, to read.
+    #[must_use]
+    pub fn bodies(&self) -> &Bodies {
+        &self.state.bodies
+    }
+
+    /// Work and dissipation since the world was made.
+    #[must_use]
+    pub fn ledger(&self) -> Ledger {
+        self.state.ledger
+    }
+
+    /// What the last step or run took.
+    #[must_use]
+    pub fn report(&self) -> &StepReport {
+        &self.report
+    }
+}
+
+/// Forces beyond gravity.
+impl World {
+    /// Adds a field of force. It acts on all bodies, which then move as one island.
+    pub fn add_field(&mut self, field: impl ForceField + 'static) -> FieldHandle {
+        self.add_shared_field(Arc::new(field))
+    }
+
+    /// Adds a field that is shared with others.
+    pub fn add_shared_field(&mut self, field: Arc<dyn ForceField>) -> FieldHandle {
+        self.fields.push(field);
+        self.plan = None;
+        self.state.field_map.insert()
+    }
+
+    /// Removes a field.
+    pub fn remove_field(&mut self, field: FieldHandle) -> Result<()> {
+        let index = self.state.field_map.remove(field)?;
+        self.fields.swap_remove(index);
+        self.plan = None;
+        Ok(())
+    }
+
+    /// The fields.
+    #[must_use]
+    pub fn fields(&self) -> &[Arc<dyn ForceField>] {
+        &self.fields
+    }
+
+    /// Handles of the fields, in the same order.
+    #[must_use]
+    pub fn field_handles(&self) -> &[FieldHandle] {
+        self.state.field_map.handles()
+    }
+
+    /// Adds forces on a body that are constant between given times. They go with the body.
+    pub fn add_schedule(
+        &mut self,
+        body: crate::body::BodyHandle,
+        forces: ForceSchedule,
+    ) -> Result<ScheduleHandle> {
+        self.state.bodies.index(body)?;
+        Ok(self.state.schedules.insert(Schedule { body, forces }))
+    }
+
+    /// Removes a schedule.
+    pub fn remove_schedule(&mut self, schedule: ScheduleHandle) -> Result<()> {
+        self.state.schedules.remove(schedule).map(drop)
+    }
+
+    /// The schedules.
+    #[must_use]
+    pub fn schedules(&self) -> &[Schedule] {
+        self.state.schedules.values()
+    }
+}

@@ -1,0 +1,97 @@
+//! What the scene contains, hence which stages run and how each body moves. Rebuilt only when the
+//! content changes.
+
+use std::fmt::Write as _;
+
+use crate::body::{Bodies, BodyKind};
+use crate::forces::has_drag;
+use crate::math::Wrench;
+use crate::world::{Settings, World};
+
+/// How the bodies of a world move. Indices are places in body order.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plan {
+    /// Bodies that move with a given velocity, and free bodies under constant forces: closed form.
+    pub(super) closed: Vec<usize>,
+    /// Bodies that each move by a method, by themselves.
+    pub(super) single: Vec<usize>,
+    /// A field acts: all bodies move by a method, together.
+    pub(super) together: bool,
+    /// Some body has a constant force.
+    pub(super) forces: bool,
+}
+
+impl Plan {
+    pub(super) fn new(bodies: &Bodies, settings: &Settings, fields: usize) -> Self {
+        let mut plan = Self {
+            together: fields > 0 && !bodies.is_empty(),
+            forces: bodies.forces.iter().any(|wrench| *wrench != Wrench::ZERO),
+            ..Self::default()
+        };
+        for (i, info) in bodies.infos.iter().enumerate() {
+            let dynamic = info.def.kind == BodyKind::Dynamic;
+            let constant = settings.closed_form && !has_drag(info, settings.air);
+            match info.def.kind {
+                BodyKind::Static => {}
+                _ if plan.together => {}
+                _ if !dynamic || constant => plan.closed.push(i),
+                _ => plan.single.push(i),
+            }
+        }
+        plan
+    }
+}
+
+fn count(n: usize) -> String {
+    format!("{n} {}", if n == 1 { "body" } else { "bodies" })
+}
+
+impl World {
+    pub(super) fn planned(&mut self) -> &Plan {
+        let Self { plan, state, fields, .. } = self;
+        plan.get_or_insert_with(|| Plan::new(&state.bodies, &state.settings, fields.len()))
+    }
+
+    /// The stages a step of this world runs, which bodies each moves and how, and the time of each in
+    /// the last run, if `timing` is on. What is not listed is not run, and not paid for.
+    #[must_use]
+    pub fn explain(&self) -> String {
+        let (bodies, settings) = (&self.state.bodies, &self.state.settings);
+        let plan = Plan::new(bodies, settings, self.fields.len());
+        let by_method =
+            format!("{}, {} substeps a step", self.method.facts().name, settings.substeps);
+        let mut text = String::from("a step:\n");
+        let mut line = |stage: &str, what: &str| {
+            // OK because writing to a String cannot fail.
+            let _ = writeln!(text, "  {stage:<8} {what}");
+        };
+        if !plan.closed.is_empty() {
+            let how = "closed form, exact at any step (constant forces)";
+            line("advance", &format!("{}: {how}", count(plan.closed.len())));
+        }
+        if !plan.single.is_empty() {
+            let air = if settings.air.density > 0.0 { ", air drag" } else { "" };
+            line(
+                "advance",
+                &format!("{}, each by itself: {by_method}{air}", count(plan.single.len())),
+            );
+        }
+        if plan.together {
+            let names: Vec<_> = self.fields.iter().map(|field| field.name()).collect();
+            let all = count(bodies.len());
+            line("advance", &format!("{all} together: {by_method}; fields: {}", names.join(", ")));
+        }
+        if !self.state.schedules.values().is_empty() {
+            line("advance", "split where a scheduled force changes");
+        }
+        if plan.closed.is_empty() && plan.single.is_empty() && !plan.together {
+            line("advance", "nothing moves");
+        }
+        line("report", "finite check, counters");
+        line("no", "detection and no contact stage: nothing of that is in this world's plan");
+        for stage in &self.report.stages {
+            line("time", &format!("{:<8} {:.3e} s in the last run", stage.name, stage.seconds));
+        }
+        text
+    }
+}

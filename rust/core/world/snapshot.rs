@@ -1,0 +1,94 @@
+//! A world as it was: to go back to, to keep, to send. It continues bit for bit.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::{Error, Result};
+use crate::forces::{BuiltInField, ForceField};
+use crate::methods;
+use crate::world::{State, World};
+
+/// The state of a world at one moment, fields included.
+#[derive(Clone)]
+pub struct Snapshot {
+    state: State,
+    fields: Vec<Arc<dyn ForceField>>,
+}
+
+/// What stands in a file: the state, and for each field what it is, or that it was the user's code.
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    version: u32,
+    state: State,
+    fields: Vec<Option<BuiltInField>>,
+}
+
+/// Changes with the layout of [`State`].
+const VERSION: u32 = 1;
+
+impl World {
+    /// Keeps the world as it is.
+    #[must_use]
+    pub fn snapshot(&self) -> Snapshot {
+        Snapshot { state: self.state.clone(), fields: self.fields.clone() }
+    }
+
+    /// Goes back to a snapshot, of this world or of another. Handles of then are valid again.
+    pub fn restore(&mut self, snapshot: &Snapshot) {
+        *self = Self::from_state(snapshot.state.clone(), snapshot.fields.clone());
+    }
+}
+
+impl Snapshot {
+    /// A world that continues from here.
+    #[must_use]
+    pub fn to_world(&self) -> World {
+        World::from_state(self.state.clone(), self.fields.clone())
+    }
+
+    /// The snapshot as bytes. Fields that are the user's code are not in them: [`Snapshot::from_bytes`]
+    /// is handed those again.
+    pub fn to_bytes(&self) -> Result<Vec<u8>> {
+        let fields = self.fields.iter().map(|field| field.built_in()).collect();
+        let stored = Stored { version: VERSION, state: self.state.clone(), fields };
+        postcard::to_stdvec(&stored)
+            .map_err(|error| Error::invalid("snapshot", error, "a state that can be written"))
+    }
+
+    /// Reads a snapshot. `own` are the fields of the user's own, in the order in which they stand
+    /// among the world's fields.
+    ///
+    /// # Errors
+    /// Bytes that are no snapshot of this version, or fewer or more fields than it had.
+    pub fn from_bytes(bytes: &[u8], own: Vec<Arc<dyn ForceField>>) -> Result<Self> {
+        let wrong = |got: String| {
+            Error::invalid(
+                "snapshot",
+                got,
+                format!("bytes written by version {VERSION} of snapshots"),
+            )
+        };
+        let mut stored: Stored =
+            postcard::from_bytes(bytes).map_err(|error| wrong(error.to_string()))?;
+        if stored.version != VERSION {
+            return Err(wrong(format!("version {}", stored.version)));
+        }
+        methods::method(&stored.state.settings.method)?;
+        let wanted = stored.fields.iter().filter(|field| field.is_none()).count();
+        if own.len() != wanted {
+            let got = format!("{} fields", own.len());
+            return Err(Error::invalid("fields of the snapshot", got, format!("{wanted}")));
+        }
+        let mut own = own.into_iter();
+        let mut fields = Vec::with_capacity(stored.fields.len());
+        for field in stored.fields {
+            match field {
+                Some(built_in) => fields.push(built_in.build()?),
+                None => fields.extend(own.next()),
+            }
+        }
+        stored.state.bodies.rebuild();
+        Ok(Self { state: stored.state, fields })
+    }
+}

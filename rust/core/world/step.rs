@@ -1,0 +1,266 @@
+//! One step, and many.
+
+use std::time::Instant;
+
+use crate::body::Bodies;
+use crate::error::{Error, Result, check};
+use crate::forces::{Forces, Ledger};
+use crate::math::{Pose, Real, Twist, Wrench};
+use crate::methods::closed_form::Constant;
+use crate::methods::{Motion, Span};
+use crate::world::{Clock, State, StepReport, World};
+
+/// The moving part of a world before a call, to go back to if the call fails.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Backup {
+    poses: Vec<Pose>,
+    twists: Vec<Twist>,
+    clock: Clock,
+    ledger: Ledger,
+}
+
+impl World {
+    /// Moves the world on by dt (s), at a fixed step.
+    ///
+    /// # Errors
+    /// A dt that is not allowed, a field that fails, a motion that leaves the range of numbers. The
+    /// world is then as it was before the call.
+    pub fn step(&mut self, dt: Real) -> Result<()> {
+        self.steps(dt, 1)
+    }
+
+    /// `count` steps of dt (s). Forces applied for the next step act in the first of them.
+    ///
+    /// # Errors
+    /// Those of [`World::step`]; the world is then as it was before the first of the steps.
+    pub fn steps(&mut self, dt: Real, count: u32) -> Result<()> {
+        check::positive("dt", dt)?;
+        self.attempt(|world| (0..count).try_for_each(|_| world.tick(dt)))
+    }
+
+    /// One step: a table of contents.
+    pub(super) fn tick(&mut self, dt: Real) -> Result<()> {
+        self.stage("plan", |world| {
+            world.planned();
+            Ok(())
+        })?;
+        self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+        self.stage("report", |world| world.finish(dt))
+    }
+
+    /// Runs a stage, timed if timing is on.
+    fn stage(
+        &mut self,
+        name: &'static str,
+        run: impl FnOnce(&mut Self) -> Result<()>,
+    ) -> Result<()> {
+        if !self.state.settings.timing {
+            return run(self);
+        }
+        let start = Instant::now();
+        let result = run(self);
+        self.report.book_time(name, start.elapsed());
+        result
+    }
+
+    /// Runs `work`; if it fails, the world is put back as it was.
+    pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
+        self.scratch.backup.save(&self.state);
+        self.scratch.methods.forget();
+        let report = std::mem::take(&mut self.report);
+        let result = work(self);
+        if result.is_err() {
+            self.scratch.backup.restore(&mut self.state);
+            self.report = report;
+        }
+        result
+    }
+
+    /// Calls `advance` for each stretch of time over which the steady forces stay the same.
+    pub(super) fn each_span(
+        &mut self,
+        duration: Real,
+        mut advance: impl FnMut(&mut Self, Span) -> Result<()>,
+    ) -> Result<()> {
+        let end = self.state.clock.after(duration);
+        let substeps = self.state.settings.substeps;
+        let mut start = self.state.clock;
+        let mut rest = duration;
+        while let Some(change) = self.next_change(start.now, rest) {
+            let h = change - start.now;
+            self.sum_steady_forces(start.now);
+            advance(self, Span { start: start.now, end: change, duration: h, substeps })?;
+            start = Clock { now: change, behind: 0.0 };
+            rest -= h;
+        }
+        self.sum_steady_forces(start.now);
+        advance(self, Span { start: start.now, end: end.now, duration: rest, substeps })?;
+        self.state.clock = end;
+        Ok(())
+    }
+
+    /// First change of a scheduled force within `rest` of a moment. A change that is nearer to either
+    /// end than rounding counts as being there.
+    fn next_change(&self, now: Real, rest: Real) -> Option<Real> {
+        let sliver = 1e-12 * rest;
+        let schedules = self.state.schedules.values().iter();
+        let changes = schedules.filter_map(|schedule| schedule.forces.next_change(now + sliver));
+        changes.reduce(Real::min).filter(|change| *change < now + rest - sliver)
+    }
+
+    /// Sums constant, applied and scheduled forces for the span that begins at a moment.
+    fn sum_steady_forces(&mut self, now: Real) {
+        let Self { state, scratch, applied, plan, .. } = self;
+        let steady = &mut scratch.steady;
+        scratch.methods.forget();
+        steady.clear();
+        let constant = plan.as_ref().is_some_and(|plan| plan.forces);
+        if !constant && !*applied && state.schedules.values().is_empty() {
+            return;
+        }
+        steady.extend_from_slice(&state.bodies.forces);
+        if *applied {
+            steady.iter_mut().zip(&state.bodies.applied).for_each(|(sum, own)| *sum += *own);
+        }
+        for schedule in state.schedules.values() {
+            // What begins within rounding of now acts now.
+            let moment = now + 4.0 * Real::EPSILON * now.abs();
+            if let Ok(i) = state.bodies.index(schedule.body) {
+                steady[i] += schedule.forces.at(moment);
+            }
+        }
+    }
+
+    /// Moves every body through a span at the fixed step.
+    fn advance_span(&mut self, span: Span) -> Result<()> {
+        self.advance_closed(span.duration);
+        let plan = self.plan.take().unwrap_or_default();
+        let result = if plan.together {
+            self.advance_run(0..self.state.bodies.len(), span)
+        } else {
+            plan.single.iter().try_for_each(|&i| self.advance_run(i..i + 1, span))
+        };
+        self.plan = Some(plan);
+        result
+    }
+
+    /// Moves the bodies whose solution is known.
+    pub(super) fn advance_closed(&mut self, h: Real) {
+        let Self { state, scratch, plan, report, .. } = self;
+        let State { bodies, settings, ledger, .. } = state;
+        let Some(plan) = plan else { return };
+        for &i in &plan.closed {
+            let (mut pose, mut twist) = (bodies.poses[i], bodies.twists[i]);
+            constant(bodies, &scratch.steady, settings, i)
+                .advance(h, &mut pose, &mut twist, ledger);
+            (bodies.poses[i], bodies.twists[i]) = (pose, twist);
+        }
+        report.steps += u64::from(!plan.closed.is_empty());
+    }
+
+    /// Moves a run of bodies by the world's method.
+    fn advance_run(&mut self, run: std::ops::Range<usize>, span: Span) -> Result<()> {
+        let method = self.method;
+        let (mut forces, mut motion, scratch) = self.split(run);
+        method.run(&mut forces, &mut motion, span, scratch)?;
+        let evaluations = forces.evaluations;
+        self.report.evaluations += evaluations;
+        self.report.steps += u64::from(span.substeps);
+        self.report.smallest_step = self.report.smallest_step.min(span.h());
+        Ok(())
+    }
+
+    /// What a method needs for a run of bodies.
+    pub(super) fn split(
+        &mut self,
+        run: std::ops::Range<usize>,
+    ) -> (Forces<'_>, Motion<'_>, &mut crate::methods::Scratch) {
+        let Self { state, scratch, fields, .. } = self;
+        let State { bodies, settings, ledger, .. } = state;
+        let (handles, poses, twists, masses, infos) = bodies.for_methods();
+        let steady = if scratch.steady.is_empty() { 0..0 } else { run.clone() };
+        let forces = Forces {
+            handles,
+            masses: &masses[run.clone()],
+            infos: &infos[run.clone()],
+            steady: &scratch.steady[steady],
+            gravity: settings.gravity,
+            air: settings.air,
+            fields,
+            buffers: &mut scratch.forces,
+            evaluations: 0,
+        };
+        let motion = Motion { poses: &mut poses[run.clone()], twists: &mut twists[run], ledger };
+        (forces, motion, &mut scratch.methods)
+    }
+
+    /// Checks that the motion is finite, and forgets the forces that were applied for this step.
+    pub(super) fn finish(&mut self, dt: Real) -> Result<()> {
+        self.report.duration += dt;
+        let Some(plan) = &self.plan else { return Ok(()) };
+        let bodies = &self.state.bodies;
+        let moved = plan.closed.iter().chain(&plan.single).copied();
+        let all = 0..if plan.together { bodies.len() } else { 0 };
+        if let Some(body) = moved.chain(all).find(|&i| !is_finite(bodies, i)) {
+            let hint = "check forces, velocities and dt; the world is as before the call";
+            let time = self.time();
+            return Err(Error::NotFinite { time, what: "position or velocity", body, hint });
+        }
+        if std::mem::take(&mut self.applied) {
+            self.state.bodies.applied.fill(Wrench::ZERO);
+        }
+        Ok(())
+    }
+}
+
+/// Body `i` under constant forces.
+pub(super) fn constant<'a>(
+    bodies: &'a Bodies,
+    steady: &[Wrench],
+    settings: &crate::world::Settings,
+    i: usize,
+) -> Constant<'a> {
+    let (mass, def) = (&bodies.masses[i], &bodies.infos[i].def);
+    let damping = |free: bool, rate: Real| if free { rate } else { 0.0 };
+    Constant {
+        mass,
+        steady: steady.get(i).copied().unwrap_or(Wrench::ZERO),
+        gravity: settings.gravity,
+        damping: (
+            damping(mass.inverse != crate::math::Vec2::zeros(), def.linear_damping),
+            damping(mass.inverse_inertia > 0.0, def.angular_damping),
+        ),
+        wind: settings.air.wind,
+    }
+}
+
+fn is_finite(bodies: &Bodies, i: usize) -> bool {
+    let (pose, twist) = (&bodies.poses[i], &bodies.twists[i]);
+    // One number stands for six: infinities and NaN survive a sum of absolute values.
+    let sum = pose.position.x.abs() + pose.position.y.abs() + pose.angle.abs();
+    (sum + twist.linear.x.abs() + twist.linear.y.abs() + twist.angular.abs()).is_finite()
+}
+
+impl Backup {
+    fn save(&mut self, state: &State) {
+        self.poses.clone_from(&state.bodies.poses);
+        self.twists.clone_from(&state.bodies.twists);
+        (self.clock, self.ledger) = (state.clock, state.ledger);
+    }
+
+    fn restore(&self, state: &mut State) {
+        state.bodies.poses.clone_from(&self.poses);
+        state.bodies.twists.clone_from(&self.twists);
+        (state.clock, state.ledger) = (self.clock, self.ledger);
+    }
+}
+
+impl StepReport {
+    fn book_time(&mut self, name: &'static str, time: std::time::Duration) {
+        let seconds = time.as_secs_f64();
+        match self.stages.iter_mut().find(|stage| stage.name == name) {
+            Some(stage) => stage.seconds += seconds,
+            None => self.stages.push(crate::world::StageTime { name, seconds }),
+        }
+    }
+}
