@@ -112,10 +112,14 @@ impl World {
     fn sum_steady_forces(&mut self, now: Real) {
         let Self { state, scratch, applied, plan, .. } = self;
         let steady = &mut scratch.steady;
+        let constant = plan.as_ref().is_some_and(|plan| plan.forces);
+        let none = !constant && !*applied && state.schedules.values().is_empty();
+        if none && steady.is_empty() {
+            return;
+        }
         scratch.methods.forget();
         steady.clear();
-        let constant = plan.as_ref().is_some_and(|plan| plan.forces);
-        if !constant && !*applied && state.schedules.values().is_empty() {
+        if none {
             return;
         }
         steady.extend_from_slice(&state.bodies.forces);
