@@ -1,0 +1,81 @@
+# What people and the continuous integration call. `make` alone lists it.
+#
+# Python tools live in .venv, made from the first python3 >= 3.10 found. A file there stands for
+# each thing that is installed, so that nothing is installed twice and everything is rebuilt when
+# its sources change. Python sources need no rebuilding: the package is installed in editable form.
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.NOTPARALLEL:
+.PHONY: help report test check bench docs package test-deep clean
+
+BIN := .venv/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
+DEVELOP := env -u CONDA_PREFIX VIRTUAL_ENV="$(CURDIR)/.venv" $(BIN)/maturin develop --release --quiet
+SOURCES := Cargo.toml Cargo.lock pyproject.toml rust/binding/Cargo.toml $(shell find rust -name '*.rs')
+
+PYTHON ?= $(shell for python in python3 python3.14 python3.13 python3.12 python3.11 python3.10; do \
+	$$python -c 'import ensurepip, sys, venv; sys.exit(sys.version_info < (3, 10))' 2>/dev/null \
+	&& echo $$python && break; done)
+
+export CARGO_TARGET_DIR ?= $(CURDIR)/target
+export MPLBACKEND := agg
+
+help: ## List what can be made
+	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-10s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+
+report: .venv/installed ## Measure error against run time, and write report/
+	$(BIN)/culbuto report --output report
+
+test: check docs package ## Every check and every test
+	cargo test --workspace --locked
+	$(BIN)/pytest
+
+check: .venv/tools ## Formatting, lints and types
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets --locked -- -D warnings
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/stubtest culbuto
+
+bench: ## Measure speed
+	cargo bench --workspace --locked
+
+docs: ## Documentation of the crate, in target/doc
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
+
+PACKAGE := target/package
+package: .venv/tools ## Source distribution, a wheel from it, and that wheel in an empty environment
+	rm -rf $(PACKAGE) && mkdir -p $(PACKAGE)
+	$(BIN)/maturin sdist --quiet --out $(PACKAGE)
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
+		--wheel-dir $(PACKAGE) $(PACKAGE)/culbuto-*.tar.gz
+	$(BIN)/python -m venv $(PACKAGE)/venv
+	$(PACKAGE)/venv/bin/python -m pip --disable-pip-version-check install --quiet $(PACKAGE)/culbuto-*.whl
+	cd $(PACKAGE) && venv/bin/culbuto --version
+
+test-deep: .venv/tools ## The property tests with many more cases (tens of minutes)
+	PROPTEST_CASES=10000 cargo test --release --workspace --locked
+	CULBUTO_PROFILE=deep $(BIN)/pytest --numprocesses auto
+
+clean: ## Remove everything that was made
+	rm -rf .venv target report dist
+	find python tests -name __pycache__ -prune -exec rm -rf {} +
+	rm -rf .mypy_cache .ruff_cache .pytest_cache .hypothesis python/culbuto/_native.*so
+
+.venv/created:
+	@test -n "$(PYTHON)" || { echo "Python >= 3.10 with venv is needed (on Debian and Ubuntu: apt install python3-venv)" >&2; exit 1; }
+	rm -rf .venv
+	$(PYTHON) -m venv .venv
+	$(PIP) --upgrade pip
+	touch $@
+
+.venv/installed: .venv/created $(SOURCES)
+	$(PIP) "maturin>=1.16,<2"
+	$(DEVELOP) --extras plot
+	touch $@
+
+.venv/tools: .venv/installed pyproject.toml
+	$(DEVELOP) --extras plot,test --group dev
+	touch $@

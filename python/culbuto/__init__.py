@@ -1,0 +1,34 @@
+"""Culbuto: two-dimensional physics in double precision that says how wrong it is.
+
+Quantities are in SI units, angles in radians, y points up. Wherever a vector is wanted a tuple of
+two numbers will do; vectors come back as `Vec2`:
+
+>>> import culbuto as cb
+>>> velocity = cb.Vec2(3, 4)
+>>> velocity.length
+5.0
+>>> velocity + (1, 0)
+Vec2(4.0, 4.0)
+>>> x, y = velocity
+>>> velocity == (x, y)
+True
+
+A bad number or shape is a `ValueError`; what was removed from its world, a `StaleHandleError`; a
+motion that cannot go on, a `SimulationError`.
+"""
+
+from culbuto._native import (
+    SceneFileError,
+    SimulationError,
+    StaleHandleError,
+    Vec2,
+    __version__,
+)
+
+__all__ = [
+    "SceneFileError",
+    "SimulationError",
+    "StaleHandleError",
+    "Vec2",
+    "__version__",
+]
