@@ -1,9 +1,9 @@
 //! The shadow a body casts: its width across the motion, which air drag asks for.
 
+use super::Shape;
 use super::arc::WireArc;
 use super::bounds::Interval;
 use super::geometry::Geometry;
-use super::Shape;
 use crate::math::{Real, Rot, Vec2, perp, vec2};
 
 /// The outline of one body's shapes as seen from far away, ready to be asked often.
