@@ -105,7 +105,7 @@ proptest! {
         let after =
             Shape::polygon_with_holes(&turned(&outline), &holes.iter().map(turned).collect::<Vec<_>>()).unwrap();
         // Each vertex is off by 2ε of its distance R: the area by that times the perimeter, the moment by R² times that.
-        let reach = outline.iter().map(|p| p.norm()).fold(0.0, Real::max);
+        let reach = outline.iter().map(Vec2::norm).fold(0.0, Real::max);
         let strip = 2.0 * EPS * reach * before.perimeter() + 4.0 * EPS * before.area();
         assert!((after.area() - before.area()).abs() <= strip);
         assert!((after.second_moment() - before.second_moment()).abs() <= 4.0 * reach * reach * strip);

@@ -129,7 +129,7 @@ fn sizes_beyond_measure_are_refused_or_finite() {
         let triangle = [vec2(0.0, 0.0), vec2(scale, 0.0), vec2(0.0, scale)];
         match Shape::polygon(&triangle) {
             Ok(shape) => {
-                assert!(shape.second_moment().is_normal() && shape.area() > 0.0, "{scale:e}")
+                assert!(shape.second_moment().is_normal() && shape.area() > 0.0, "{scale:e}");
             }
             Err(error) => assert!(error.to_string().contains("allowed"), "{error}"),
         }

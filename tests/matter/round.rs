@@ -8,9 +8,12 @@ use proptest::prelude::*;
 
 use crate::common::{assert_close, assert_near};
 
+/// A smooth piece of a boundary over [0, 1]: its points and their derivative.
+type Piece = Box<dyn Fn(Real) -> (Vec2, Vec2)>;
+
 /// Green's theorem by Gauss–Legendre of five points on each of eight parts of smooth pieces (r, dr/dt) over [0, 1]:
 /// (A, c, J about c). Exact for straight pieces, 1e-15 for arcs up to a turn.
-fn by_green(pieces: &[Box<dyn Fn(Real) -> (Vec2, Vec2)>], about: Vec2) -> (Real, Vec2, Real) {
+fn by_green(pieces: &[Piece], about: Vec2) -> (Real, Vec2, Real) {
     const NODES: [(Real, Real); 5] = [
         (0.0, 0.568_888_888_888_888_9),
         (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
@@ -38,9 +41,9 @@ fn by_green(pieces: &[Box<dyn Fn(Real) -> (Vec2, Vec2)>], about: Vec2) -> (Real,
 }
 
 /// The boundary of a convex polygon grown by a disk.
-fn grown(core: &[Vec2], radius: Real) -> Vec<Box<dyn Fn(Real) -> (Vec2, Vec2)>> {
+fn grown(core: &[Vec2], radius: Real) -> Vec<Piece> {
     let n = core.len();
-    let mut pieces: Vec<Box<dyn Fn(Real) -> (Vec2, Vec2)>> = Vec::new();
+    let mut pieces: Vec<Piece> = Vec::new();
     for i in 0..n {
         let (a, b, c) = (core[i], core[(i + 1) % n], core[(i + 2) % n]);
         let normal = |p: Vec2, q: Vec2| -perp((q - p).normalize());
