@@ -31,7 +31,7 @@ impl Edge {
     /// Neighbours share the vertex between them; that they do not fold back on each other is the
     /// caller's to know.
     fn is_next_to(&self, other: &Self) -> bool {
-        let step = (self.place + self.ring_len - other.place) % self.ring_len;
+        let step = self.place.abs_diff(other.place);
         self.ring == other.ring && (step == 1 || step + 1 == self.ring_len)
     }
 }

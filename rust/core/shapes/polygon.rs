@@ -16,7 +16,7 @@ struct Ring {
 /// coincide, none lies on the line between its neighbours, no edges cross or touch, every hole lies inside the
 /// outline and outside the other holes. Cleaning clean rings again changes nothing.
 pub(super) fn clean(vertices: &[Vec2], holes: &[Vec<Vec2>]) -> Result<Vec<Vec<Vec2>>> {
-    let mut rings = vec![tidy("outline".to_string(), vertices)?];
+    let mut rings = vec![tidy("the outline".to_string(), vertices)?];
     for (i, hole) in holes.iter().enumerate() {
         rings.push(tidy(format!("hole {i}"), hole)?);
     }
@@ -36,7 +36,7 @@ pub(super) fn clean(vertices: &[Vec2], holes: &[Vec<Vec2>]) -> Result<Vec<Vec<Ve
 /// one; what differs by no more than four of those is the same.
 fn tidy(name: String, vertices: &[Vec2]) -> Result<Ring> {
     for (i, &vertex) in vertices.iter().enumerate() {
-        check::finite_vec(&format!("vertex {i} of the {name}"), vertex)?;
+        check::finite_vec(&format!("vertex {i} of {name}"), vertex)?;
     }
     let mut ring: Vec<(usize, Vec2)> = vertices.iter().copied().enumerate().collect();
     loop {
@@ -49,19 +49,26 @@ fn tidy(name: String, vertices: &[Vec2]) -> Result<Ring> {
             p.apply(|x| *x = if x.abs() <= negligible { 0.0 } else { *x });
         }
         merge_duplicates(&mut ring, tolerance);
+        check_corners(&name, ring.len())?;
         merge_straight(&name, &mut ring, tolerance)?;
-        if ring.len() < 3 {
-            return Err(Error::invalid(
-                format!("the {name} of the polygon"),
-                format!("{} different corners", ring.len()),
-                "three or more that are not on one line",
-            ));
-        }
+        check_corners(&name, ring.len())?;
         if ring.len() == before {
             let (numbers, points) = ring.into_iter().unzip();
             return Ok(Ring { name, points, numbers });
         }
     }
+}
+
+fn check_corners(name: &str, corners: usize) -> Result<()> {
+    if corners >= 3 {
+        return Ok(());
+    }
+    let got = format!("left with {corners} after merging what coincides");
+    Err(Error::invalid(
+        format!("the number of corners of {name}"),
+        got,
+        "three or more, not on one line",
+    ))
 }
 
 fn merge_duplicates(ring: &mut Vec<(usize, Vec2)>, tolerance: Real) {
@@ -90,7 +97,7 @@ fn merge_straight(name: &str, ring: &mut Vec<(usize, Vec2)>, tolerance: Real) ->
         } else if turn <= tolerance * ab.norm().max(bc.norm()) {
             // The end of the shorter edge lies on the longer one.
             return Err(Error::invalid(
-                format!("the {name} of the polygon"),
+                name,
                 format!(
                     "folded back at vertex {number} (edges {before}–{number} and {number}–{after})"
                 ),
@@ -109,13 +116,13 @@ fn refuse_crossings(rings: &[Ring]) -> Result<()> {
     let edge = |(ring, place): (usize, usize)| {
         let Ring { name, numbers, .. } = &rings[ring];
         let label = format!("edge {}–{}", numbers[place], numbers[(place + 1) % numbers.len()]);
-        if rings.len() == 1 { label } else { format!("{label} of the {name}") }
+        if rings.len() == 1 { label } else { format!("{label} of {name}") }
     };
     let [first, second] = conflict.edges.map(edge);
-    let (verb, kind) = if conflict.cross { ("crosses", "crossed") } else { ("touches", "touched") };
+    let verb = if conflict.cross { "crosses" } else { "touches" };
     Err(Error::invalid(
-        "the outline of the polygon",
-        format!("{kind} by itself: {first} {verb} {second}"),
+        "the polygon",
+        format!("not simple: {first} {verb} {second}"),
         "edges that meet only at the vertex between neighbours",
     ))
 }
@@ -124,16 +131,12 @@ fn refuse_crossings(rings: &[Ring]) -> Result<()> {
 fn refuse_stray_holes(rings: &[Ring]) -> Result<()> {
     let (outline, holes) = (&rings[0], &rings[1..]);
     let inside = |ring: &Ring, hole: &Ring| place(&ring.points, hole.points[0]) == Place::Inside;
+    if let Some(hole) = holes.iter().find(|hole| !inside(outline, hole)) {
+        return Err(Error::invalid(&hole.name, "outside the outline", "holes inside the outline"));
+    }
     for (i, hole) in holes.iter().enumerate() {
-        if !inside(outline, hole) {
-            return Err(Error::invalid(
-                &hole.name,
-                "outside the outline",
-                "holes inside the outline",
-            ));
-        }
-        let others = holes.iter().enumerate().filter(|&(j, _)| j != i);
-        if let Some((_, other)) = others.into_iter().find(|(_, other)| inside(other, hole)) {
+        let mut others = holes.iter().enumerate().filter(|&(j, _)| j != i);
+        if let Some((_, other)) = others.find(|(_, other)| inside(other, hole)) {
             return Err(Error::invalid(
                 &hole.name,
                 format!("inside {}", other.name),
