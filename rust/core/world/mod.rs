@@ -147,7 +147,8 @@ impl World {
     fn from_state(state: State, fields: Vec<Arc<dyn ForceField>>) -> Self {
         // OK because the setter lets only names of the registry in, and reading a snapshot checks it.
         let method = methods::method(&state.settings.method).unwrap_or(methods::REGISTRY[0]);
-        let applied = state.bodies.applied.iter().any(|wrench| *wrench != crate::math::Wrench::ZERO);
+        let applied =
+            state.bodies.applied.iter().any(|wrench| *wrench != crate::math::Wrench::ZERO);
         Self {
             state,
             fields,
@@ -174,6 +175,18 @@ impl World {
     /// Sets the world time (s). Schedules and fields that depend on time go by it.
     pub fn set_time(&mut self, time: Real) -> Result<()> {
         self.state.clock = Clock { now: check::finite("time", time)?, behind: 0.0 };
+        Ok(())
+    }
+
+    /// World time, and what the clock knows beyond its last digit (s).
+    pub(crate) fn clock(&self) -> (Real, Real) {
+        (self.state.clock.now, self.state.clock.behind)
+    }
+
+    /// Sets what [`World::clock`] gives.
+    pub(crate) fn set_clock(&mut self, time: Real, remainder: Real) -> Result<()> {
+        self.set_time(time)?;
+        self.state.clock.behind = check::finite("time_remainder", remainder)?;
         Ok(())
     }
 
