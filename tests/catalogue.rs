@@ -10,13 +10,24 @@ fn every_scene_reaches_its_figures() {
     for verdict in &verdicts {
         println!("{} {}", verdict.id, verdict.name);
         for check in &verdict.checks {
-            println!("   {} {:?} asked {:e} measured {:e}", check.what, check.column, check.asked, check.measured);
+            println!(
+                "   {} {:?} asked {:e} measured {:e}",
+                check.what, check.column, check.asked, check.measured
+            );
             if !check.pass {
                 failures.push(format!("{}: {check:?}", verdict.id));
             }
         }
         for method in &verdict.methods {
-            println!("   {:20} error {:.1e} energy {:.1e} order {} measured {:?} exact {}", method.method, method.error, method.energy, method.order_stated, method.order_measured, method.exact);
+            println!(
+                "   {:20} error {:.1e} energy {:.1e} order {} measured {:?} exact {}",
+                method.method,
+                method.error,
+                method.energy,
+                method.order_stated,
+                method.order_measured,
+                method.exact
+            );
             if !method.pass {
                 failures.push(format!("{}: {method:?}", verdict.id));
             }

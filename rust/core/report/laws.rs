@@ -88,7 +88,12 @@ pub fn verify_laws(
     let third = worst.third_law;
     let law = |name, measured, allowed, why| Law { name, measured, allowed, why };
     let laws = vec![
-        law("energy", Some(worst.energy), limits.energy, "E − E₀ − work + dissipated over the largest kinetic energy"),
+        law(
+            "energy",
+            Some(worst.energy),
+            limits.energy,
+            "E − E₀ − work + dissipated over the largest kinetic energy",
+        ),
         law(
             "momentum",
             momentum.is_ok().then_some(worst.momentum),
@@ -105,7 +110,11 @@ pub fn verify_laws(
             "third law",
             third,
             limits.third_law,
-            if third.is_some() { "sum of internal forces over the sum of their sizes" } else { "no internal field" },
+            if third.is_some() {
+                "sum of internal forces over the sum of their sizes"
+            } else {
+                "no internal field"
+            },
         ),
     ];
     let pass = laws.iter().all(Law::kept);
@@ -195,7 +204,8 @@ fn applies(world: &World) -> Applies {
     let bodies = world.bodies();
     let dynamic = || (0..bodies.len()).filter(|&i| bodies.is(i, BodyKind::Dynamic));
     let def = |i: usize| &bodies.infos[i].def;
-    let in_air = world.settings().air.density > 0.0 && dynamic().any(|i| def(i).drag_coefficient > 0.0);
+    let in_air =
+        world.settings().air.density > 0.0 && dynamic().any(|i| def(i).drag_coefficient > 0.0);
     let momentum = if world.fields().iter().any(|field| !field.facts().internal) {
         Err("an outside field acts")
     } else if in_air || dynamic().any(|i| def(i).linear_damping > 0.0) {
@@ -209,8 +219,8 @@ fn applies(world: &World) -> Applies {
     };
     let scale = |i: usize| bodies.masses[i].gravity_scale;
     let uneven = dynamic().zip(dynamic().skip(1)).any(|(i, j)| scale(i) != scale(j));
-    let angular = momentum.and(
-        if dynamic().any(|i| bodies.forces[i] != crate::math::Wrench::ZERO) {
+    let angular =
+        momentum.and(if dynamic().any(|i| bodies.forces[i] != crate::math::Wrench::ZERO) {
             Err("a constant force or torque acts")
         } else if dynamic().any(|i| def(i).angular_damping > 0.0 || def(i).locks.rotation) {
             Err("a rotation is damped or locked")
@@ -218,7 +228,6 @@ fn applies(world: &World) -> Applies {
             Err("gravity acts unevenly")
         } else {
             Ok(())
-        },
-    );
+        });
     Applies { momentum, angular }
 }

@@ -19,45 +19,47 @@ pub enum Order {
 
 /// Errors from here on (relative) are too large for their slope to be the order.
 const LARGE: Real = 1e-2;
-/// Errors below this, at any step, are rounding.
-const ROUNDING: Real = 1e-12;
+
+/// Rounding of a run of n steps: each adds a few times half a unit in the last place.
+fn rounding(steps: Real) -> Real {
+    1e-14 + 16.0 * steps * Real::EPSILON
+}
 
 /// Order of a method on a scene: the slope log(e₁/e₂)/log(h₁/h₂) between the two finest of a ladder
 /// of steps (each √2 times finer than the one before) whose errors are smaller than 1 % and well above
-/// rounding. The ladder ends where rounding begins.
+/// rounding. Where a whole run is too long for a slow method to come below 1 %, an eighth of it is taken.
 ///
 /// # Errors
 /// Those of the runs.
 pub fn measured_order(motion: &Motion, facts: &Facts) -> Result<Order> {
-    let mut last: Option<(Real, Real)> = None;
-    let mut slope = None;
-    let mut largest: Real = 0.0;
-    let mut floor: Real = ROUNDING;
+    order_over(&Motion { duration: motion.duration / 8.0, ..*motion }, facts)
+}
+
+fn order_over(motion: &Motion, facts: &Facts) -> Result<Order> {
+    let mut ladder = Vec::new();
     for k in 4..=26 {
-        let steps = (libm::exp2(Real::from(k) / 2.0)).round();
+        let steps = libm::exp2(Real::from(k) / 2.0).round();
         let h = motion.duration / steps;
         let mut world = (motion.build)()?;
         world.set_closed_form(false);
         world.set_method(facts.name)?;
         world.set_substeps(1)?;
-        // A step that the method refuses is too large.
-        let Ok((error, _)) = error_of(motion, &mut world, Mode::Step(h)) else { continue };
-        largest = largest.max(error);
-        if let Some((h1, e1)) = last
-            && e1 < LARGE
-            && error > 30.0 * floor
-            && error < e1
-        {
-            slope = Some(libm::log(e1 / error) / libm::log(h1 / h));
+        // A step that the method refuses is too large, and no rung of the ladder.
+        if let Ok((error, _)) = error_of(motion, &mut world, Mode::Step(h)) {
+            ladder.push((steps, error));
         }
-        if error < ROUNDING * 10.0 {
-            floor = floor.max(error);
-        }
-        last = Some((h, error));
     }
-    Ok(match slope {
-        _ if largest < ROUNDING => Order::Exact,
-        Some(slope) => Order::Slope(slope),
-        None => Order::Unclear,
-    })
+    if ladder.iter().all(|&(steps, error)| error < rounding(steps)) {
+        return Ok(Order::Exact);
+    }
+    // Rounding also has a floor of the scene's own: the least error that any step reaches.
+    let least = ladder.iter().map(|rung| rung.1).fold(Real::INFINITY, Real::min);
+    let floor = |steps: Real| if least < rounding(steps) { 30.0 * least } else { 0.0 };
+    let usable = |rungs: &&[(Real, Real)]| {
+        rungs[0].1 < LARGE && rungs[1].1 > floor(rungs[1].0).max(rounding(rungs[1].0) / 16.0)
+    };
+    let finest = ladder.windows(2).filter(usable).next_back();
+    Ok(finest.map_or(Order::Unclear, |rungs| {
+        Order::Slope(libm::log(rungs[0].1 / rungs[1].1) / libm::log(rungs[1].0 / rungs[0].0))
+    }))
 }

@@ -194,7 +194,10 @@ pub(super) fn error_of(motion: &Motion, world: &mut World, mode: Mode) -> Result
     };
     let after = world.energy()?;
     let size = before.kinetic.max(after.kinetic).max(Real::MIN_POSITIVE);
-    Ok((error_at_end(motion, world, &trajectory), (after.balance() - before.balance()).abs() / size))
+    Ok((
+        error_at_end(motion, world, &trajectory),
+        (after.balance() - before.balance()).abs() / size,
+    ))
 }
 
 /// The recorded samples, and the end of the run where the samples do not reach it.

@@ -15,7 +15,12 @@ const E: Real = 0.6;
 fn kepler() -> Result<World> {
     let mut world = weightless()?;
     world.set_substeps(1)?;
-    world.add_field(Central { center: Vec2::zeros(), strength: 1.0, exponent: -2.0, per_mass: true });
+    world.add_field(Central {
+        center: Vec2::zeros(),
+        strength: 1.0,
+        exponent: -2.0,
+        per_mass: true,
+    });
     world.add_body(BodyDef {
         position: vec2(1.0 - E, 0.0),
         velocity: vec2(0.0, 2.0),
@@ -96,7 +101,12 @@ pub static CIRCLE: Scene = Scene {
         build: || {
             let mut world = weightless()?;
             let strength = MASS * SPEED * SPEED / RADIUS;
-            world.add_field(Central { center: Vec2::zeros(), strength, exponent: 0.0, per_mass: false });
+            world.add_field(Central {
+                center: Vec2::zeros(),
+                strength,
+                exponent: 0.0,
+                per_mass: false,
+            });
             world.add_body(BodyDef {
                 position: vec2(RADIUS, 0.0),
                 velocity: vec2(0.0, SPEED),

@@ -92,10 +92,18 @@ pub static VARYING_TORQUE: Scene = Scene {
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = weightless()?;
-            let body =
-                world.add_body(BodyDef { inertia: Some(INERTIA), ..BodyDef::new(Shape::circle(0.5)?) })?;
+            let body = world.add_body(BodyDef {
+                inertia: Some(INERTIA),
+                ..BodyDef::new(Shape::circle(0.5)?)
+            })?;
             let force = vec2(0.0, 0.0);
-            world.add_field(Oscillating { body, force, torque: TORQUE, hertz: HERTZ, phase: PHASE });
+            world.add_field(Oscillating {
+                body,
+                force,
+                torque: TORQUE,
+                hertz: HERTZ,
+                phase: PHASE,
+            });
             Ok(world)
         },
         exact: |t| {
