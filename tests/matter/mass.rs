@@ -170,6 +170,20 @@ proptest! {
 }
 
 #[test]
+fn corners_of_unlike_size_keep_their_differences() {
+    // Seen from the first corner, one far corner rounds up and the other down: half a per cent of the area.
+    let far = 1_i64 << 54;
+    let corners = [[1, 0], [far, far], [far - 254, far + 256]];
+    let arm = |i: usize| {
+        [i128::from(corners[i][0] - corners[0][0]), i128::from(corners[i][1] - corners[0][1])]
+    };
+    let [a, b] = [arm(1), arm(2)];
+    let exact = (a[0] * b[1] - a[1] * b[0]) as Real / 2.0;
+    let triangle = Shape::polygon(&corners.map(|[x, y]| vec2(x as Real, y as Real))).unwrap();
+    assert_close(triangle.area(), exact, LAST_DIGITS);
+}
+
+#[test]
 fn small_and_large_shapes_keep_their_digits() {
     for scale in [1e-60, 1e-3, 1e6, 1e60] {
         let square = Shape::rectangle(scale, scale).unwrap();

@@ -52,8 +52,11 @@ fn outlines_that_make_no_sense_are_refused_with_their_vertices_named() {
         (0.0, 1.0),
     ];
     refused(&pinched, &["touches"]);
-    refused(&[(0.0, 0.0), (Real::NAN, 0.0), (1.0, 1.0)], &["vertex", "NaN", "finite"]);
-    refused(&[(0.0, 0.0), (1.0, Real::INFINITY), (1.0, 1.0)], &["inf"]);
+    refused(
+        &[(0.0, 0.0), (Real::NAN, 0.0), (1.0, 1.0)],
+        &["vertex 1 of the outline", "NaN", "finite"],
+    );
+    refused(&[(0.0, 0.0), (1.0, Real::INFINITY), (1.0, 1.0)], &["vertex 1", "inf"]);
 }
 
 #[test]

@@ -119,6 +119,16 @@ fn arcs_are_as_wide_as_they_bulge() {
 }
 
 #[test]
+fn the_shortest_arcs_do_not_bulge_behind_their_centre() {
+    for k in 0..100 {
+        let start = Real::from(k) * 0.37;
+        let shadow = alone(&Shape::arc(vec2(0.0, 0.0), 1.0, start, 1e-16).unwrap());
+        // Light along the tangent sees a point, up to rounding.
+        assert!(shadow.width_across(toward(start + FRAC_PI_2)) < 1e-15);
+    }
+}
+
+#[test]
 fn the_bounding_box_of_the_source_is_the_box_of_the_world() {
     let shadow = alone(&Shape::rectangle(2.0, 1.0).unwrap());
     // Turned by 30°: the box along the axes is (2c + s) × (2s + c).

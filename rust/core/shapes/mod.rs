@@ -14,6 +14,7 @@ mod crossing;
 mod decompose;
 mod def;
 mod geometry;
+mod limits;
 mod mass;
 mod polygon;
 mod predicates;

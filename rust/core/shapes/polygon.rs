@@ -1,8 +1,8 @@
 //! From what the user drew to clean rings: vertices merged, outlines that cannot be refused, orientation set.
 
-use super::crossing;
 use super::predicates::{self, Place, place};
-use crate::error::{Error, Result, check};
+use super::{crossing, limits};
+use crate::error::{Error, Result};
 use crate::math::{Real, Vec2, cross};
 
 /// A ring with the user's numbers of its vertices.
@@ -36,7 +36,7 @@ pub(super) fn clean(vertices: &[Vec2], holes: &[Vec<Vec2>]) -> Result<Vec<Vec<Ve
 /// one; what differs by no more than four of those is the same.
 fn tidy(name: String, vertices: &[Vec2]) -> Result<Ring> {
     for (i, &vertex) in vertices.iter().enumerate() {
-        check::finite_vec(&format!("vertex {i} of {name}"), vertex)?;
+        limits::point(&format!("vertex {i} of {name}"), vertex)?;
     }
     let mut ring: Vec<(usize, Vec2)> = vertices.iter().copied().enumerate().collect();
     loop {
