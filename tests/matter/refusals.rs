@@ -209,7 +209,8 @@ proptest! {
     }
 }
 
-/// By definition, in integers: after merging, no two edges share a point other than neighbours their vertex.
+/// By definition, in integers: after merging, no two edges share a point other than neighbours
+/// their vertex.
 fn is_simple(mut ring: Vec<[i64; 2]>) -> bool {
     let turn = |a: [i64; 2], b: [i64; 2], c: [i64; 2]| {
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])

@@ -53,7 +53,8 @@ proptest! {
     fn gaps_do_not_count_and_overlaps_count_once(
         parts in prop::collection::vec((0..100_i32, 1..20_i32), 1..40),
     ) {
-        // Boxes one unit wide on unit cells of a line: the shadow of light from above is the number of cells covered.
+        // Boxes one unit wide on unit cells of a line: the shadow of light from above is the number
+        // of cells covered.
         let shapes: Vec<Shape> = parts
             .iter()
             .map(|&(x, w)| {

@@ -13,8 +13,9 @@ use super::{limits, polygon, round};
 use crate::error::{Error, Result, check};
 use crate::math::{Real, Rot, Vec2, vec2};
 
-/// A shape as the user writes it and as scene files and snapshots hold it (lengths in m, angles in rad,
-/// counter-clockwise, in the frame of the body). Nothing is checked before [`Shape::new`](super::Shape::new).
+/// A shape as the user writes it and as scene files and snapshots hold it (lengths in m, angles in
+/// rad, counter-clockwise, in the frame of the body). Nothing is checked before
+/// [`Shape::new`](super::Shape::new).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ShapeDef {
@@ -97,7 +98,8 @@ pub enum ShapeDef {
         radius: Real,
         /// Direction of its first point, from the centre.
         start: Real,
-        /// Angle from its first point to its last: counter-clockwise above 0, clockwise below, a whole circle at ±2π.
+        /// Angle from its first point to its last: counter-clockwise above 0, clockwise below, a
+        /// whole circle at ±2π.
         sweep: Real,
     },
 }

@@ -1,5 +1,5 @@
-//! Which numbers a shape may be made of. Moments hold products of four lengths, and what is left of them
-//! after cancelling must not underflow either: hence a range of sizes, the same for all kinds.
+//! Which numbers a shape may be made of. Moments hold products of four lengths, and what is left of
+//! them after cancelling must not underflow either: hence a range of sizes, the same for all kinds.
 
 use super::predicates::{is_convex, magnitude};
 use crate::error::{Error, Result, check};
