@@ -204,6 +204,24 @@ fn a_shape_contains_as_many_grid_points_as_its_area_holds() {
 }
 
 #[test]
+fn the_border_belongs_to_the_shape_and_what_is_beyond_does_not() {
+    let v = vec2;
+    let square = [v(0.0, 0.0), v(8.0, 0.0), v(8.0, 8.0), v(0.0, 8.0)];
+    let hole = vec![v(2.0, 2.0), v(6.0, 2.0), v(4.0, 6.0)];
+    let shape = Shape::polygon_with_holes(&square, &[hole]).unwrap();
+    let border = [v(0.0, 0.0), v(8.0, 8.0), v(8.0, 3.0), v(5.0, 8.0), v(2.0, 2.0), v(4.0, 2.0)];
+    for p in border.into_iter().chain([v(4.0, 6.0), v(3.0, 4.0), v(5.0, 4.0), v(1.0, 4.0)]) {
+        assert!(shape.contains(p), "{p:?}");
+    }
+    let next = Real::next_up;
+    for p in [v(next(8.0), 3.0), v(5.0, next(8.0)), v(3.0, 4.0_f64.next_down()), v(4.0, next(2.0))]
+    {
+        assert!(!shape.contains(p), "{p:?}");
+    }
+    assert!(!Shape::segment(square[0], square[1]).unwrap().contains(square[0]));
+}
+
+#[test]
 fn extents_and_boxes_are_those_of_the_outline() {
     let mut shapes = zoo();
     shapes.push(Shape::segment(vec2(0.3, 1.0), vec2(-2.0, 0.2)).unwrap());
