@@ -74,7 +74,7 @@ pub fn verify(scene: &Scene) -> Result<Verdict> {
     match scene.answer {
         Answer::Motion(motion) => {
             checks.extend(errors(&motion)?);
-            for method in REGISTRY {
+            for method in REGISTRY.iter().filter(|_| motion.by_method) {
                 methods.push(method_row(&motion, method.facts())?);
             }
         }

@@ -48,6 +48,7 @@ pub static FALL: Scene = Scene {
         fixed: 1e-4,
         toleranced: 1e-10,
         tolerance: 1e-10,
+        by_method: true,
     }),
     checks: &[Check {
         what: "speeds at t = 1 and 3 against 7.18842565892 and 9.01469242065 m/s",
@@ -89,6 +90,7 @@ pub static COAST: Scene = Scene {
         fixed: 1e-13,
         toleranced: 1e-13,
         tolerance: 1e-14,
+        by_method: true,
     }),
     checks: &[Check {
         what: "speed at t = 5 against 1.53846153846 m/s",
@@ -119,6 +121,7 @@ pub static COAST_IN_ONE_STEP: Scene = Scene {
         fixed: 1e-12,
         toleranced: 1e-12,
         tolerance: 1e-13,
+        by_method: false,
     }),
     checks: &[Check {
         what: "speed against v₀/10001, without overshoot",

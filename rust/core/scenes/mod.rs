@@ -57,6 +57,8 @@ pub struct Motion {
     pub toleranced: Real,
     /// The tolerance it is run with.
     pub tolerance: Real,
+    /// Methods other than the default are judged on it too. Not where one step is the whole run.
+    pub by_method: bool,
 }
 
 /// A number with its exact value.

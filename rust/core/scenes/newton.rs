@@ -30,6 +30,7 @@ pub static PROJECTILE: Scene = Scene {
         fixed: 1e-12,
         toleranced: 1e-13,
         tolerance: 1e-9,
+        by_method: true,
     }),
     checks: &[Check {
         what: "vertical velocity at t = 2 against −10.62 m/s",
@@ -80,6 +81,7 @@ pub static CONSTANT_FORCE: Scene = Scene {
         fixed: 1e-12,
         toleranced: 1e-13,
         tolerance: 1e-9,
+        by_method: true,
     }),
     checks: &[Check {
         what: "largest error over steps from 1e-3 to 0.5 s",
@@ -131,6 +133,7 @@ pub static SCHEDULED_FORCE: Scene = Scene {
         fixed: 1e-12,
         toleranced: 1e-12,
         tolerance: 1e-9,
+        by_method: true,
     }),
     checks: &[],
 };

@@ -56,6 +56,7 @@ pub static KEPLER: Scene = Scene {
         fixed: 1e-2,
         toleranced: 1e-10,
         tolerance: 1e-12,
+        by_method: true,
     }),
     checks: &[
         Check {
@@ -124,6 +125,7 @@ pub static CIRCLE: Scene = Scene {
         fixed: 1e-3,
         toleranced: 1e-9,
         tolerance: 1e-10,
+        by_method: true,
     }),
     checks: &[],
 };

@@ -37,6 +37,7 @@ pub static SPIN_DECAY: Scene = Scene {
         fixed: 1e-12,
         toleranced: 1e-13,
         tolerance: 1e-9,
+        by_method: true,
     }),
     checks: &[Check {
         what: "angular velocity at t = 5 against ω₀e^(−ct)",
@@ -64,6 +65,7 @@ pub static FREE_SPIN: Scene = Scene {
         fixed: 1e-12,
         toleranced: 1e-12,
         tolerance: 1e-9,
+        by_method: true,
     }),
     checks: &[Check {
         what: "length of the rotation against 1",
@@ -117,6 +119,7 @@ pub static VARYING_TORQUE: Scene = Scene {
         fixed: 1e-3,
         toleranced: 1e-9,
         tolerance: 1e-10,
+        by_method: true,
     }),
     checks: &[],
 };
