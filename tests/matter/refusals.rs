@@ -52,8 +52,11 @@ fn outlines_that_make_no_sense_are_refused_with_their_vertices_named() {
         (0.0, 1.0),
     ];
     refused(&pinched, &["touches"]);
-    refused(&[(0.0, 0.0), (Real::NAN, 0.0), (1.0, 1.0)], &["vertex", "NaN", "finite"]);
-    refused(&[(0.0, 0.0), (1.0, Real::INFINITY), (1.0, 1.0)], &["inf"]);
+    refused(
+        &[(0.0, 0.0), (Real::NAN, 0.0), (1.0, 1.0)],
+        &["vertex 1 of the outline", "NaN", "finite"],
+    );
+    refused(&[(0.0, 0.0), (1.0, Real::INFINITY), (1.0, 1.0)], &["vertex 1", "inf"]);
 }
 
 #[test]
@@ -206,7 +209,8 @@ proptest! {
     }
 }
 
-/// By definition, in integers: after merging, no two edges share a point other than neighbours their vertex.
+/// By definition, in integers: after merging, no two edges share a point other than neighbours
+/// their vertex.
 fn is_simple(mut ring: Vec<[i64; 2]>) -> bool {
     let turn = |a: [i64; 2], b: [i64; 2], c: [i64; 2]| {
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
@@ -256,7 +260,7 @@ fn ten_thousand_vertices_take_well_under_a_second() {
             Rot::new(Real::from(i) * std::f64::consts::TAU / Real::from(n)).apply(vec2(r, 0.0))
         })
         .collect();
-    // The worst for a sweep along x: long teeth along it, one above the other.
+    // Long teeth along x, one above the other: a sweep along x would compare all with all.
     let comb: Vec<Vec2> = (0..n / 2)
         .flat_map(|i| [vec2(0.0, Real::from(i)), vec2(100.0, Real::from(i) + 0.5)])
         .chain([vec2(-1.0, Real::from(n / 2)), vec2(-1.0, -1.0)])

@@ -66,7 +66,6 @@ impl World {
     /// Runs `work`; if it fails, the world is put back as it was.
     pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         self.scratch.backup.save(&self.state);
-        self.scratch.methods.forget();
         let report = std::mem::take(&mut self.report);
         let result = work(self);
         if result.is_err() {
@@ -112,14 +111,9 @@ impl World {
     fn sum_steady_forces(&mut self, now: Real) {
         let Self { state, scratch, applied, plan, .. } = self;
         let steady = &mut scratch.steady;
-        let constant = plan.as_ref().is_some_and(|plan| plan.forces);
-        let none = !constant && !*applied && state.schedules.values().is_empty();
-        if none && steady.is_empty() {
-            return;
-        }
-        scratch.methods.forget();
         steady.clear();
-        if none {
+        let constant = plan.as_ref().is_some_and(|plan| plan.forces);
+        if !constant && !*applied && state.schedules.values().is_empty() {
             return;
         }
         steady.extend_from_slice(&state.bodies.forces);

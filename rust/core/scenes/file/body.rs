@@ -119,6 +119,9 @@ impl<'de, M: MapAccess<'de>> MapAccess<'de> for &mut DefEntries<M> {
             match key.as_str() {
                 SHAPES if self.shapes.is_some() => return Err(M::Error::duplicate_field(SHAPES)),
                 SHAPES => self.shapes = Some(self.map.next_value()?),
+                CENTER_AT if self.center_at.is_some() => {
+                    return Err(M::Error::duplicate_field(CENTER_AT));
+                }
                 CENTER_AT => self.center_at = self.map.next_value()?,
                 _ => {
                     self.placed |= key == "position";

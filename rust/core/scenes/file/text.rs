@@ -4,7 +4,7 @@ use schemars::Schema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::{SCENE_VERSION, SceneFile, wrong};
+use super::{SCENE_VERSION, SceneFile, SceneOscillating, wrong};
 use crate::body::BodyDef;
 use crate::error::Result;
 
@@ -63,6 +63,12 @@ pub fn to_json(scene: &SceneFile) -> String {
     }
     for schedule in objects(&mut file, "schedules") {
         schedule.retain(|_, value| *value != Value::Array(Vec::new()));
+    }
+    let usual = object(&SceneOscillating::default());
+    for field in objects(&mut file, "fields") {
+        if let Some(Value::Object(own)) = field.get_mut("oscillating") {
+            leave_out(own, &usual, &["body", "hertz"]);
+        }
     }
     let mut text = String::new();
     write(&Value::Object(file), 0, 0, &mut text);
