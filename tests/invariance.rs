@@ -1,6 +1,8 @@
 //! Results do not depend on who looks: on the order of creation, the place and direction of the axes,
 //! the unit of length, a steady motion of the observer, or the direction of time.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests may, as tests do
+
 #[path = "common/worlds.rs"]
 mod worlds;
 

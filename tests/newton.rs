@@ -1,5 +1,7 @@
 //! Newton's three laws.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests may, as tests do
+
 #[path = "common/worlds.rs"]
 mod worlds;
 

@@ -1,5 +1,7 @@
 //! The order that a method states is the order that is measured; a tolerance is kept.
 
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests may, as tests do
+
 #[path = "common/worlds.rs"]
 mod worlds;
 

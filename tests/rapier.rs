@@ -5,6 +5,8 @@
 //! a constant a that is x(t) = v₀t + ½at² + ½aht: too far by exactly ½aht. Its damping is v /= 1 + ch,
 //! of which n steps leave (1 + ch)^(−n) ≈ e^(−ct)(1 + ½c²ht).
 
+#![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests may, as tests do
+
 #[path = "common/worlds.rs"]
 mod worlds;
 
