@@ -294,7 +294,11 @@ fn broken_snapshots_are_refused() {
     }
     let mut other = bytes.clone();
     other[0] = 200;
-    assert!(Snapshot::from_bytes(&other, Vec::new()).is_err());
+    let error = Snapshot::from_bytes(&other, Vec::new()).map(drop).unwrap_err();
+    assert!(error.to_string().contains("snapshot is"), "{error}");
+    other[0] = bytes[0] + 1;
+    let error = Snapshot::from_bytes(&other, Vec::new()).map(drop).unwrap_err();
+    assert!(error.to_string().contains("snapshot is version"), "{error}");
     let own = vec![std::sync::Arc::new(Righting { strength: 1.0 }) as _];
     assert!(Snapshot::from_bytes(&bytes, own).is_err(), "a field too many");
 }

@@ -84,6 +84,34 @@ proptest! {
         prop_assert!((x - wind - direction * way).norm() <= 1e-11, "{x} {way}");
     }
 
+    /// Linear damping alone under a constant force: v' = a − c(v − w), whose solution is known, at any step.
+    /// Rounding: n steps of a few terms, each up to the sum of their sizes.
+    #[test]
+    fn a_damped_fall_is_exact(v in -5.0..5.0_f64, w in -5.0..5.0_f64, a in -10.0..10.0_f64,
+                              rates in (1e-3..5.0_f64, 1e-3..5.0_f64), t in 0.1..3.0_f64, steps in 1..40_u32) {
+        // As far and as fast, from φ₁ = (1 − e^(−ct))/(ct): x = wt + (v − w)tφ₁ + a(t/c)(1 − φ₁).
+        let exact = |v: Real, w: Real, a: Real, c: Real| {
+            let phi = -(-c * t).exp_m1() / (c * t);
+            let left = (v - w) * (-c * t).exp();
+            (w * t + (v - w) * t * phi + a * t / c * (1.0 - phi), w + left + a * t * phi)
+        };
+        let def = BodyDef {
+            velocity: vec2(v, 0.0), linear_damping: rates.0, angular_velocity: w, angular_damping: rates.1,
+            inertia: Some(2.0), torque: 2.0 * a, ..BodyDef::point(1.5)
+        };
+        let mut world = in_air(BodyDef { drag_coefficient: 0.0, ..def }, vec2(w, 0.0));
+        world.set_gravity(vec2(a, 0.0)).unwrap();
+        world.steps(t / Real::from(steps), steps).unwrap();
+        let (place, velocity) = state(&world);
+        // 1 − φ₁ ≥ ct/4 or so has lost as many digits here as 1e-3 is small.
+        let bound = 1e3 * 64.0 * Real::from(steps) * EPS * 50.0;
+        let (x, u) = exact(v, w, a, rates.0);
+        prop_assert!((place.x - x).abs() <= bound && (velocity.x - u).abs() <= bound, "{place} {x}");
+        let (angle, spin) = exact(w, 0.0, a, rates.1);
+        prop_assert!((world.bodies().poses[0].angle - angle).abs() <= bound);
+        prop_assert!((world.bodies().twists[0].angular - spin).abs() <= bound);
+    }
+
     /// On a rail the wind from the side brakes too: v' = −κ√(v² + b²)·v, exact at any step.
     #[test]
     fn a_cross_wind_brakes_on_a_rail(velocity in -5.0..5.0_f64, wind in (-3.0..3.0, 0.1..3.0), k in 0.1..3.0_f64,
