@@ -48,7 +48,7 @@ docs: ## Documentation of the crate, in target/doc
 PACKAGE := target/package
 package: .venv/tools ## Source distribution, a wheel from it, and that wheel in an empty environment
 	rm -rf $(PACKAGE) && mkdir -p $(PACKAGE)
-	$(BIN)/maturin sdist --quiet --out $(PACKAGE)
+	$(BIN)/maturin sdist --out $(PACKAGE)
 	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python -m pip wheel --quiet --no-deps --no-build-isolation \
 		--wheel-dir $(PACKAGE) $(PACKAGE)/culbuto-*.tar.gz
 	$(BIN)/python -m venv $(PACKAGE)/venv
@@ -76,6 +76,6 @@ clean: ## Remove everything that was made
 	$(DEVELOP) --extras plot
 	touch $@
 
-.venv/tools: .venv/installed pyproject.toml
+.venv/tools: pyproject.toml | .venv/installed
 	$(DEVELOP) --extras plot,test --group dev
 	touch $@
