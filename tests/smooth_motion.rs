@@ -1,6 +1,6 @@
 //! Orders of the methods, and exact solutions.
 use culbuto::forces::Central;
-use culbuto::math::{vec2, Twist};
+use culbuto::math::{Twist, vec2};
 use culbuto::{BodyDef, World};
 
 fn kepler(method: &str) -> World {
@@ -8,7 +8,12 @@ fn kepler(method: &str) -> World {
     w.set_method(method).unwrap();
     w.set_substeps(1).unwrap();
     w.add_field(Central { center: vec2(0.0, 0.0), strength: 1.0, exponent: -2.0, per_mass: true });
-    w.add_body(BodyDef { position: vec2(0.4, 0.0), velocity: vec2(0.0, 2.0), ..BodyDef::point(1.0) }).unwrap();
+    w.add_body(BodyDef {
+        position: vec2(0.4, 0.0),
+        velocity: vec2(0.0, 2.0),
+        ..BodyDef::point(1.0)
+    })
+    .unwrap();
     w
 }
 
@@ -27,7 +32,11 @@ fn orders() {
             print!(" {:.1e}({:.2})", e, (last / e).log2());
             last = e;
         }
-        println!(" evals {}", { let mut w = kepler(f.name); w.steps(1.0/16.0, 16).unwrap(); w.report().evaluations });
+        println!(" evals {}", {
+            let mut w = kepler(f.name);
+            w.steps(1.0 / 16.0, 16).unwrap();
+            w.report().evaluations
+        });
     }
     for tol in [1e-3, 1e-6, 1e-9, 1e-12, 1e-14] {
         let mut w = kepler("leapfrog");
@@ -38,6 +47,11 @@ fn orders() {
     let e0 = w.energy().unwrap().balance();
     let t = std::time::Instant::now();
     w.advance(1000.0 * std::f64::consts::TAU, 1e-13).unwrap();
-    println!("1000 orbits {:e} {:?} {:?}", w.energy().unwrap().balance() - e0, w.report(), t.elapsed());
+    println!(
+        "1000 orbits {:e} {:?} {:?}",
+        w.energy().unwrap().balance() - e0,
+        w.report(),
+        t.elapsed()
+    );
     let _ = Twist::ZERO;
 }

@@ -147,7 +147,8 @@ impl World {
     fn from_state(state: State, fields: Vec<Arc<dyn ForceField>>) -> Self {
         // OK because the setter lets only names of the registry in, and reading a snapshot checks it.
         let method = methods::method(&state.settings.method).unwrap_or(methods::REGISTRY[0]);
-        let applied = state.bodies.applied.iter().any(|wrench| *wrench != crate::math::Wrench::ZERO);
+        let applied =
+            state.bodies.applied.iter().any(|wrench| *wrench != crate::math::Wrench::ZERO);
         Self {
             state,
             fields,
@@ -287,6 +288,12 @@ impl World {
     /// Removes a schedule.
     pub fn remove_schedule(&mut self, schedule: ScheduleHandle) -> Result<()> {
         self.state.schedules.remove(schedule).map(drop)
+    }
+
+    /// Handles of the schedules, in the order of [`World::schedules`].
+    #[must_use]
+    pub fn schedule_handles(&self) -> &[ScheduleHandle] {
+        self.state.schedules.handles()
     }
 
     /// The schedules.
