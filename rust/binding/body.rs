@@ -501,6 +501,6 @@ impl Body {
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        visit.call(&self.place.world)
+        self.place.traverse(&visit)
     }
 }

@@ -225,8 +225,8 @@ impl Field {
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        visit.call(&self.law)?;
-        visit.call(&self.place.world)
+        self.place.traverse(&visit)?;
+        if self.place.made.yes() { visit.call(&self.law) } else { Ok(()) }
     }
 }
 

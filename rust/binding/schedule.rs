@@ -121,7 +121,7 @@ impl Schedule {
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        visit.call(&self.place.world)
+        self.place.traverse(&visit)
     }
 }
 
