@@ -10,7 +10,7 @@ use pyo3::types::PyTuple;
 
 use crate::convert::Vec2Arg;
 use crate::error::to_py;
-use crate::parts::Place;
+use crate::parts::{Place, Reduced, reduced};
 use crate::shape::parts;
 use crate::shapes::to_python;
 use crate::vec2::Vec2;
@@ -498,6 +498,10 @@ impl Body {
             format!("<{kind} Body{name} at ({:?}, {:?})>", at.x, at.y)
         });
         seen.unwrap_or_else(|_| "<Body of a world at work>".to_owned())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, "body", &slf.get().place)
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {

@@ -29,6 +29,21 @@ impl Made {
     }
 }
 
+/// What `__reduce__` gives: a function, its arguments, and the attributes of the user's own.
+pub type Reduced<'py> = (Bound<'py, PyAny>, (Py<World>,), Bound<'py, PyAny>);
+
+/// How a part of a world is pickled and copied: as what its world finds in its slot.
+pub fn reduced<'py, T: Named>(
+    part: &Bound<'py, PyAny>,
+    kind: &str,
+    place: &Place<T>,
+) -> PyResult<Reduced<'py>> {
+    let py = part.py();
+    let slot = place.known().filter(|_| place.is_alive()).map(Handle::slot);
+    let caller = py.import("operator")?.getattr("methodcaller")?.call1(("_part", kind, slot))?;
+    Ok((caller, (place.world.clone_ref(py),), part.getattr("__dict__")?))
+}
+
 /// A place in a world. The world's objects and its core are in step: a place is alive exactly while the
 /// world holds the object it belongs to, so a handle that is used again never finds another thing.
 pub struct Place<T> {
@@ -70,6 +85,11 @@ impl<T: Named> Place<T> {
     /// The handle it has or had.
     pub fn known(&self) -> Option<Handle<T>> {
         self.handle.get().copied()
+    }
+
+    /// The slot it has or had.
+    pub fn slot(&self) -> Option<usize> {
+        self.known().map(Handle::slot)
     }
 
     /// The handle, if the thing is still there. Asked with the core locked, it stays there.
