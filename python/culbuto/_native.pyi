@@ -497,8 +497,8 @@ class Attraction:
     def __new__(
         cls,
         strength: float,
-        exponent: float = -2.0,
-        softening: float = 0.0,
+        exponent: float = ...,
+        softening: float = ...,
     ) -> Attraction: ...
     @property
     def strength(self) -> float:

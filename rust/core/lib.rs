@@ -6,6 +6,8 @@ pub mod forces;
 pub mod math;
 pub mod methods;
 pub mod observe;
+pub mod report;
+pub mod scenes;
 pub mod shapes;
 pub mod world;
 

@@ -1,4 +1,5 @@
-//! What several tests share: random simple polygons on the integer grid, and exact answers for them.
+//! What several tests share: random simple polygons on the integer grid, and exact answers for
+//! them.
 
 use culbuto::math::{Real, Vec2, vec2};
 use proptest::prelude::*;
@@ -6,8 +7,8 @@ use proptest::prelude::*;
 /// A polygon on the integer grid: outline counter-clockwise, holes clockwise.
 pub type Grid = Vec<Vec<[i64; 2]>>;
 
-/// Star-shaped outlines with random radii, some with a star-shaped hole; combs; L-shapes; all sheared.
-/// Coordinates stay below 2¹⁷, so that [`Exact`] fits its integers.
+/// Star-shaped outlines with random radii, some with a star-shaped hole; combs; L-shapes; all
+/// sheared. Coordinates stay below 2¹⁷, so that [`Exact`] fits its integers.
 pub fn polygons() -> impl Strategy<Value = Grid> {
     let outline = prop::collection::vec(2_000..15_000_i64, 5..20);
     let hole = prop::option::of(prop::collection::vec(50..400_i64, 3..8));
@@ -68,7 +69,8 @@ pub fn outline_and_holes(grid: &Grid, offset: [i64; 2]) -> (Vec<Vec2>, Vec<Vec<V
     (outline, rings.collect())
 }
 
-/// Area, centroid and second moment of a grid polygon in exact rational arithmetic, rounded at the very end.
+/// Area, centroid and second moment of a grid polygon in exact rational arithmetic, rounded at the
+/// very end.
 pub struct Exact {
     /// Twice the area.
     pub doubled_area: i128,

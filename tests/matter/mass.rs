@@ -8,7 +8,8 @@ use crate::common::{Exact, Grid, assert_close, assert_near, outline_and_holes, p
 
 const EPS: Real = Real::EPSILON;
 
-/// All roundings together: of the sums' results, of their scaling, and of the reference's two quotients.
+/// All roundings together: of the sums' results, of their scaling, and of the reference's two
+/// quotients.
 const LAST_DIGITS: Real = 8.0 * EPS;
 
 fn shape_of(grid: &Grid, offset: [i64; 2]) -> Shape {
@@ -35,7 +36,8 @@ fn known_shapes_have_their_rational_measures() {
     assert_eq!((square.area(), square.perimeter(), square.centroid()), (1.0, 4.0, vec2(0.5, 0.5)));
     assert_close(square.second_moment(), 1.0 / 6.0, EPS);
 
-    // Two unit squares side by side and one on the left one: c = (5/6, 5/6), J = 3·1/6 + Σ d² = 1/2 + 4/3.
+    // Two unit squares side by side and one on the left one: c = (5/6, 5/6), J = 3·1/6 + Σ d² = 1/2
+    // + 4/3.
     let ell: Grid = vec![vec![[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]];
     let shape = shape_of(&ell, [0, 0]);
     assert_eq!((shape.area(), shape.perimeter()), (3.0, 8.0));
@@ -104,7 +106,8 @@ proptest! {
         let before = Shape::polygon_with_holes(&outline, &holes).unwrap();
         let after =
             Shape::polygon_with_holes(&turned(&outline), &holes.iter().map(turned).collect::<Vec<_>>()).unwrap();
-        // Each vertex is off by 2ε of its distance R: the area by that times the perimeter, the moment by R² times that.
+        // Each vertex is off by 2ε of its distance R: the area by that times the perimeter, the
+        // moment by R² times that.
         let reach = outline.iter().map(Vec2::norm).fold(0.0, Real::max);
         let strip = 2.0 * EPS * reach * before.perimeter() + 4.0 * EPS * before.area();
         assert!((after.area() - before.area()).abs() <= strip);
@@ -167,6 +170,21 @@ proptest! {
         assert_eq!(large.second_moment(), small.second_moment() * scale * scale * scale * scale);
         assert_eq!(large.centroid(), small.centroid() * scale);
     }
+}
+
+#[test]
+fn corners_of_unlike_size_keep_their_differences() {
+    // Seen from the first corner, one far corner rounds up and the other down: half a per cent of
+    // the area.
+    let far = 1_i64 << 54;
+    let corners = [[1, 0], [far, far], [far - 254, far + 256]];
+    let arm = |i: usize| {
+        [i128::from(corners[i][0] - corners[0][0]), i128::from(corners[i][1] - corners[0][1])]
+    };
+    let [a, b] = [arm(1), arm(2)];
+    let exact = (a[0] * b[1] - a[1] * b[0]) as Real / 2.0;
+    let triangle = Shape::polygon(&corners.map(|[x, y]| vec2(x as Real, y as Real))).unwrap();
+    assert_close(triangle.area(), exact, LAST_DIGITS);
 }
 
 #[test]

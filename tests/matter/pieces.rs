@@ -42,7 +42,8 @@ proptest! {
             }
         }
 
-        // A point is in the polygon exactly when it is in a piece; with the areas, the pieces cannot overlap.
+        // A point is in the polygon exactly when it is in a piece; with the areas, the pieces
+        // cannot overlap.
         for sample in samples {
             let p = vec2((sample[0] + offset[0]) as Real, (sample[1] + offset[1]) as Real) * scale;
             let within = |piece: &Vec<[i64; 2]>| {

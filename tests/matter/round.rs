@@ -11,8 +11,8 @@ use crate::common::{assert_close, assert_near};
 /// A smooth piece of a boundary over [0, 1]: its points and their derivative.
 type Piece = Box<dyn Fn(Real) -> (Vec2, Vec2)>;
 
-/// Green's theorem by Gauss–Legendre of five points on each of eight parts of smooth pieces (r, dr/dt) over [0, 1]:
-/// (A, c, J about c). Exact for straight pieces, 1e-15 for arcs up to a turn.
+/// Green's theorem by Gauss–Legendre of five points on each of eight parts of smooth pieces (r,
+/// dr/dt) over [0, 1]: (A, c, J about c). Exact for straight pieces, 1e-15 for arcs up to a turn.
 fn by_green(pieces: &[Piece], about: Vec2) -> (Real, Vec2, Real) {
     const NODES: [(Real, Real); 5] = [
         (0.0, 0.568_888_888_888_888_9),
@@ -77,9 +77,13 @@ proptest! {
         let capsule = Shape::capsule(core[0], core[1], radius).unwrap();
         for (shape, core) in [(rounded, &core[..]), (capsule, &core[..2])] {
             let (area, centroid, moment) = by_green(&grown(core, radius), core[0]);
-            assert_close(shape.area(), area, 1e-13);
-            assert_near(shape.centroid(), centroid, 1e-13 * (1.0 + radius));
-            assert_close(shape.second_moment(), moment, 1e-12);
+            // The quadrature rounds relative to what it sums, |r| |dr|, which for thin shapes is
+            // more than the area.
+            let reach = shape.extent_from(core[0]);
+            let slack = 32.0 * Real::EPSILON * reach * (shape.perimeter() + reach);
+            assert_close(shape.area(), area, slack / area);
+            assert_near(shape.centroid(), centroid, slack / area * reach);
+            assert_close(shape.second_moment(), moment, slack * reach * reach / moment);
         }
     }
 
@@ -88,7 +92,8 @@ proptest! {
         prop_assume!(sweep.abs() > 1e-3);
         let arc = Shape::arc(vec2(0.3, -0.7), radius, start, sweep).unwrap();
         assert_close(arc.measure(), radius * sweep.abs(), 1e-15);
-        // The midpoint rule on n points of an arc is off by (sweep/n)²/24 relative to the chord; Richardson takes it out.
+        // The midpoint rule on n points of an arc is off by (sweep/n)²/24 relative to the chord;
+        // Richardson takes it out.
         let sums = |n: i32| {
             let point = |k: i32| Rot::new(start + sweep * (Real::from(k) + 0.5) / Real::from(n)).apply(vec2(radius, 0.0));
             (0..n).map(point).sum::<Vec2>() / Real::from(n)
@@ -124,7 +129,8 @@ fn closed_forms() {
     let ring = Shape::arc(vec2(1.0, 0.0), 3.0, 0.0, TAU).unwrap();
     assert_close(ring.second_moment(), TAU * 27.0, 1e-15);
     assert_near(ring.centroid(), vec2(1.0, 0.0), 1e-15);
-    // Stadium of length 2 between the centres, radius 1: 4 + π, and J = 4·(4 + 4)/12 + (π/2 + π + 8/3).
+    // Stadium of length 2 between the centres, radius 1: 4 + π, and J = 4·(4 + 4)/12 + (π/2 + π +
+    // 8/3).
     let capsule = Shape::capsule(vec2(-1.0, 1e6), vec2(1.0, 1e6), 1.0).unwrap();
     assert_close(capsule.area(), 4.0 + PI, 1e-15);
     assert_close(capsule.perimeter(), 4.0 + TAU, 1e-15);
@@ -195,6 +201,24 @@ fn a_shape_contains_as_many_grid_points_as_its_area_holds() {
         // The boundary averages out: most of that bound is never used.
         assert!((measured - shape.area()).abs() < 0.1 * bound, "{shape:?}: {measured}");
     }
+}
+
+#[test]
+fn the_border_belongs_to_the_shape_and_what_is_beyond_does_not() {
+    let v = vec2;
+    let square = [v(0.0, 0.0), v(8.0, 0.0), v(8.0, 8.0), v(0.0, 8.0)];
+    let hole = vec![v(2.0, 2.0), v(6.0, 2.0), v(4.0, 6.0)];
+    let shape = Shape::polygon_with_holes(&square, &[hole]).unwrap();
+    let border = [v(0.0, 0.0), v(8.0, 8.0), v(8.0, 3.0), v(5.0, 8.0), v(2.0, 2.0), v(4.0, 2.0)];
+    for p in border.into_iter().chain([v(4.0, 6.0), v(3.0, 4.0), v(5.0, 4.0), v(1.0, 4.0)]) {
+        assert!(shape.contains(p), "{p:?}");
+    }
+    let next = Real::next_up;
+    for p in [v(next(8.0), 3.0), v(5.0, next(8.0)), v(3.0, 4.0_f64.next_down()), v(4.0, next(2.0))]
+    {
+        assert!(!shape.contains(p), "{p:?}");
+    }
+    assert!(!Shape::segment(square[0], square[1]).unwrap().contains(square[0]));
 }
 
 #[test]

@@ -53,7 +53,8 @@ proptest! {
     fn gaps_do_not_count_and_overlaps_count_once(
         parts in prop::collection::vec((0..100_i32, 1..20_i32), 1..40),
     ) {
-        // Boxes one unit wide on unit cells of a line: the shadow of light from above is the number of cells covered.
+        // Boxes one unit wide on unit cells of a line: the shadow of light from above is the number
+        // of cells covered.
         let shapes: Vec<Shape> = parts
             .iter()
             .map(|&(x, w)| {
@@ -116,6 +117,16 @@ fn arcs_are_as_wide_as_they_bulge() {
     // Across 45°: from one end to the other; along it: the bulge.
     assert_close(alone(&quarter).width_across(toward(PI / 4.0)), 8.0_f64.sqrt(), 1e-15);
     assert_close(alone(&quarter).width_across(toward(-PI / 4.0)), 2.0 - 2.0_f64.sqrt(), 1e-14);
+}
+
+#[test]
+fn the_shortest_arcs_do_not_bulge_behind_their_centre() {
+    for k in 0..100 {
+        let start = Real::from(k) * 0.37;
+        let shadow = alone(&Shape::arc(vec2(0.0, 0.0), 1.0, start, 1e-16).unwrap());
+        // Light along the tangent sees a point, up to rounding.
+        assert!(shadow.width_across(toward(start + FRAC_PI_2)) < 1e-15);
+    }
 }
 
 #[test]

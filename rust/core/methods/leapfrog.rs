@@ -1,6 +1,10 @@
-//! Leapfrog (Störmer, Verlet; Strang's splitting): half a kick by the forces, a drift in which air
-//! and damping act exactly, half a kick. Second order, symplectic and reversible; exact for constant
-//! forces, and for drag alone.
+//! Leapfrog (Störmer, Verlet; Strang's splitting): drifts, in which air and damping act exactly, and
+//! kicks by the forces, in a symmetric order. Second order, symplectic and reversible; exact for
+//! constant forces, and for drag alone.
+//!
+//! Steady forces kick by halves around the drift. Where fields act the drift is halved around one
+//! kick instead: one evaluation a step, in the middle of it, with a fifth of the error on Kepler's
+//! ellipse (e = 0.6).
 //!
 //! Hairer, Lubich, Wanner, "Geometric numerical integration illustrated by the Störmer–Verlet
 //! method", Acta Numerica 2003.
@@ -8,7 +12,7 @@
 use crate::error::{Error, Result};
 use crate::forces::Forces;
 use crate::math::{Real, Twist};
-use crate::methods::{Facts, Method, Motion, Scratch, Span, kick};
+use crate::methods::{Facts, Method, Motion, Scratch, Span};
 
 pub struct Leapfrog;
 
@@ -21,7 +25,7 @@ static FACTS: Facts = Facts {
     adaptive: false,
     joints: false,
     contacts: false,
-    about: "half kick, drift with the exact flow of drag and damping, half kick; the default",
+    about: "drifts with the exact flow of drag and damping, and kicks, in a symmetric order; the default",
 };
 
 impl Method for Leapfrog {
@@ -50,70 +54,68 @@ pub fn step(
     (start, end, h): (Real, Real, Real),
     scratch: &mut Scratch,
 ) -> Result<()> {
-    let implicit = forces.velocity_dependent();
-    scratch.accelerations.resize(motion.poses.len(), Twist::ZERO);
-    if implicit || !scratch.ready {
-        let a = &mut scratch.accelerations;
-        forces.accelerate_without_resistance(start, motion.poses, motion.twists, a)?;
+    if forces.fields.is_empty() {
+        kick(forces, motion, (start, h / 2.0), scratch)?;
+        drift(forces, motion, h)?;
+        return kick(forces, motion, (end, h / 2.0), scratch);
     }
-    half_kick(forces, motion, &scratch.accelerations, h / 2.0);
+    drift(forces, motion, h / 2.0)?;
+    kick(forces, motion, (start + h / 2.0, h), scratch)?;
+    drift(forces, motion, h / 2.0)
+}
+
+fn drift(forces: &Forces<'_>, motion: &mut Motion<'_>, h: Real) -> Result<()> {
     motion.ledger.dissipated += forces.drift(h, motion.poses, motion.twists)?;
-    if implicit {
-        implicit_kick(forces, motion, (end, h / 2.0), scratch)?;
-    } else {
-        let a = &mut scratch.accelerations;
-        forces.accelerate_without_resistance(end, motion.poses, motion.twists, a)?;
-        half_kick(forces, motion, a, h / 2.0);
-    }
-    // Without fields the evaluation is a few additions, and another body's run may come between.
-    scratch.ready = !forces.fields.is_empty();
     Ok(())
 }
 
-/// v += a·h, booking the work: the mean of the powers before and after is exact for a constant force.
-fn half_kick(forces: &Forces<'_>, motion: &mut Motion<'_>, accelerations: &[Twist], h: Real) {
-    let before = forces.working_power(motion.twists);
-    kick(motion.twists, accelerations, h);
-    motion.ledger.work += 0.5 * h * (before + forces.working_power(motion.twists));
-}
-
-/// The kick that ends a step where forces depend on velocities: v = v½ + a(x, v)·h, the mirror
-/// image in time of the explicit one that begins the next, so the step stays reversible and of
-/// second order. Solved by iteration, to the last digits.
-fn implicit_kick(
+/// v₁ = v₀ + a(t, x, ½(v₀ + v₁))·h. Where forces depend on velocities that is solved by iteration, to
+/// the last digits, so that the step stays reversible and of second order. The work of a force over a
+/// kick is exactly its power at the mean velocity, times h.
+fn kick(
     forces: &mut Forces<'_>,
     motion: &mut Motion<'_>,
     (time, h): (Real, Real),
     scratch: &mut Scratch,
 ) -> Result<()> {
     const MOST: usize = 60;
-    let Scratch { accelerations, before, .. } = scratch;
+    let Scratch { accelerations, before, middle, .. } = scratch;
+    let rounds = if forces.velocity_dependent() { MOST } else { 1 };
+    accelerations.resize(motion.poses.len(), Twist::ZERO);
     before.clear();
     before.extend_from_slice(motion.twists);
-    for _ in 0..MOST {
-        forces.accelerate_without_resistance(time, motion.poses, motion.twists, accelerations)?;
-        let mut change: Real = 0.0;
-        for ((v, start), a) in motion.twists.iter_mut().zip(before.iter()).zip(accelerations.iter())
-        {
-            let new = Twist::new(start.linear + a.linear * h, start.angular + a.angular * h);
-            let size = new.linear.amax().max(v.linear.amax());
-            change = change.max(relative((new.linear - v.linear).amax(), size));
-            change = change.max(relative((new.angular - v.angular).abs(), new.angular.abs()));
-            *v = new;
-        }
-        if change <= 4.0 * Real::EPSILON {
-            let mean = forces.working_power(before) + forces.working_power(motion.twists);
-            motion.ledger.work += 0.5 * h * mean;
+    middle.clone_from(before);
+    for round in 1..=rounds {
+        forces.accelerate_without_resistance(time, motion.poses, middle, accelerations)?;
+        motion.twists.copy_from_slice(before);
+        super::kick(motion.twists, accelerations, h);
+        let change = to_mean(middle, before, motion.twists);
+        if rounds == 1 || change <= 4.0 * Real::EPSILON {
+            motion.ledger.work += h * forces.working_power(middle);
             return Ok(());
+        }
+        if round == MOST || !change.is_finite() {
+            break;
         }
     }
     Err(Error::invalid(
         "dt",
-        2.0 * h.abs(),
+        h.abs(),
         "a smaller step (or more substeps): a force field changes too fast with the velocity for leapfrog",
     ))
 }
 
-fn relative(change: Real, size: Real) -> Real {
-    if change == 0.0 { 0.0 } else { change / size }
+/// middle = ½(before + after); returns the largest change of it, relative to the velocity.
+fn to_mean(middle: &mut [Twist], before: &[Twist], after: &[Twist]) -> Real {
+    let relative = |change: Real, size: Real| if change == 0.0 { 0.0 } else { change / size };
+    let mut worst: Real = 0.0;
+    for ((m, v0), v1) in middle.iter_mut().zip(before).zip(after) {
+        let mean = Twist::new((v0.linear + v1.linear) * 0.5, (v0.angular + v1.angular) * 0.5);
+        let size = v0.linear.amax().max(v1.linear.amax());
+        worst = worst.max(relative((mean.linear - m.linear).amax(), size));
+        let size = v0.angular.abs().max(v1.angular.abs());
+        worst = worst.max(relative((mean.angular - m.angular).abs(), size));
+        *m = mean;
+    }
+    worst
 }

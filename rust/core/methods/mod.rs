@@ -12,7 +12,7 @@ mod semi_implicit_euler;
 mod trapezoid;
 mod yoshida;
 
-pub use dop853::{Adaptive, Control, Progress};
+pub use dop853::{Adaptive, Control, Progress, Sink};
 
 use crate::error::{Error, Result};
 use crate::forces::{Forces, Ledger};
@@ -83,19 +83,11 @@ pub struct Motion<'a> {
 pub struct Scratch {
     /// Accelerations of the last evaluation.
     accelerations: Vec<Twist>,
-    /// `accelerations` are those of the present state, without resistance: leapfrog need not ask again.
-    ready: bool,
-    /// Velocities before an implicit kick.
+    /// Velocities before a kick, and in the middle of it.
     before: Vec<Twist>,
+    middle: Vec<Twist>,
     /// Flat columns of the methods of first order systems.
     flat: first_order::Columns,
-}
-
-impl Scratch {
-    /// Must be called whenever state, time or forces change other than by a method's own step.
-    pub fn forget(&mut self) {
-        self.ready = false;
-    }
 }
 
 /// A way through time at a fixed step.

@@ -55,8 +55,10 @@ impl WireArc {
     /// Whether the ray from the centre along `direction` meets the arc.
     fn includes(&self, direction: Vec2) -> bool {
         let between = |a: Vec2, b: Vec2| cross(a, direction) >= 0.0 && cross(direction, b) >= 0.0;
+        // Opposite a short arc both products vanish in rounding as well.
+        let ahead = |a: Vec2, b: Vec2| a.dot(&direction) >= 0.0 || b.dot(&direction) >= 0.0;
         match self.reach {
-            Reach::UpToHalf => between(self.from, self.to),
+            Reach::UpToHalf => between(self.from, self.to) && ahead(self.from, self.to),
             Reach::BeyondHalf => {
                 cross(self.to, direction) <= 0.0 || cross(direction, self.from) <= 0.0
             }

@@ -1,7 +1,8 @@
-//! Which edges of closed rings cross or touch: sort and sweep along x, then exact predicates.
+//! Which edges of closed rings cross or touch: sort and sweep along an axis, then exact predicates.
 
 use std::cmp::Ordering::{self, Equal};
 
+use super::bounds::Interval;
 use super::predicates::{edges, side};
 use crate::math::Vec2;
 
@@ -14,20 +15,14 @@ pub(super) struct Conflict {
 
 struct Edge {
     ends: [Vec2; 2],
+    /// Its extent along the sweep.
+    span: Interval,
     ring: usize,
     place: usize,
     ring_len: usize,
 }
 
 impl Edge {
-    fn left(&self) -> f64 {
-        self.ends[0].x.min(self.ends[1].x)
-    }
-
-    fn right(&self) -> f64 {
-        self.ends[0].x.max(self.ends[1].x)
-    }
-
     /// Neighbours share the vertex between them; that they do not fold back on each other is the
     /// caller's to know.
     fn is_next_to(&self, other: &Self) -> bool {
@@ -38,15 +33,19 @@ impl Edge {
 
 /// A pair of edges that cross or touch, other than neighbours in a ring at their common vertex.
 pub(super) fn find(rings: &[&[Vec2]]) -> Option<Conflict> {
+    let axis = sweep_axis(rings);
     let mut sorted: Vec<Edge> = Vec::new();
     for (ring, points) in rings.iter().enumerate() {
-        let edge = |(place, ends)| Edge { ends, ring, place, ring_len: points.len() };
+        let edge = |(place, ends): (usize, [Vec2; 2])| {
+            let span = Interval::EMPTY.with(ends[0][axis]).with(ends[1][axis]);
+            Edge { ends, span, ring, place, ring_len: points.len() }
+        };
         sorted.extend(edges(points).enumerate().map(edge));
     }
-    sorted.sort_by(|e, f| e.left().total_cmp(&f.left()));
+    sorted.sort_by(|e, f| e.span.min.total_cmp(&f.span.min));
     let mut open: Vec<&Edge> = Vec::new();
     for edge in &sorted {
-        open.retain(|other| other.right() >= edge.left());
+        open.retain(|other| other.span.max >= edge.span.min);
         for other in &open {
             if !edge.is_next_to(other)
                 && let Some(cross) = meet(edge.ends, other.ends)
@@ -59,6 +58,17 @@ pub(super) fn find(rings: &[&[Vec2]]) -> Option<Conflict> {
         open.push(edge);
     }
     None
+}
+
+/// The axis along which the edges are shorter, in all, relative to the whole: few overlap on it.
+fn sweep_axis(rings: &[&[Vec2]]) -> usize {
+    let crowding = |axis: usize| {
+        let points = rings.iter().flat_map(|ring| ring.iter());
+        let whole = points.fold(Interval::EMPTY, |span, p| span.with(p[axis])).length();
+        let edges = rings.iter().flat_map(|ring| edges(ring));
+        edges.map(|[a, b]| (b[axis] - a[axis]).abs()).sum::<f64>() / whole
+    };
+    usize::from(crowding(1) < crowding(0))
 }
 
 /// Whether two segments share a point, and if so whether they cross there.

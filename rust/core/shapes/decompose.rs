@@ -1,5 +1,6 @@
-//! Convex decomposition: constrained Delaunay triangles (the `spade` crate), merged across inessential diagonals
-//! (Hertel and Mehlhorn, "Fast triangulation of simple polygons", 1983: at most four times the fewest pieces).
+//! Convex decomposition: constrained Delaunay triangles (the `spade` crate), merged across
+//! inessential diagonals (Hertel and Mehlhorn, "Fast triangulation of simple polygons", 1983: at
+//! most four times the fewest pieces).
 
 use std::cmp::Ordering;
 
@@ -21,7 +22,8 @@ pub(super) fn convex_pieces(rings: &[Vec<Vec2>]) -> Vec<Vec<Vec2>> {
 
 /// Triangles inside the polygon, counter-clockwise, as places of their vertices in `points`.
 fn triangles(points: &[Vec2], rings: &[Vec<Vec2>]) -> Vec<[usize; 3]> {
-    // Numbers near 1, as spade asks; scaling by a power of two keeps every digit, hence every predicate.
+    // Numbers near 1, as spade asks; scaling by a power of two keeps every digit, hence every
+    // predicate.
     let shrink = 1.0 / binade(magnitude(points));
     let vertices = points.iter().map(|p| Point2::new(p.x * shrink, p.y * shrink)).collect();
     let mut constraints = Vec::with_capacity(points.len());
@@ -32,7 +34,8 @@ fn triangles(points: &[Vec2], rings: &[Vec<Vec2>]) -> Vec<[usize; 3]> {
         first += n;
     }
     type Mesh = ConstrainedDelaunayTriangulation<Point2<Real>>;
-    // OK because the coordinates are finite and in spade's range, and no two edges of clean rings cross.
+    // OK because the coordinates are finite and in spade's range, and no two edges of clean rings
+    // cross.
     let mesh = Mesh::bulk_load_cdt(vertices, constraints.clone()).expect("clean rings");
 
     // The polygon lies left of every edge of its rings; from there it spreads up to the next edge.
@@ -55,7 +58,8 @@ fn triangles(points: &[Vec2], rings: &[Vec<Vec2>]) -> Vec<[usize; 3]> {
     found
 }
 
-/// A mesh of polygons. Half-edge h runs from `origin[h]` to `origin[next[h]]`, with its polygon on the left.
+/// A mesh of polygons. Half-edge h runs from `origin[h]` to `origin[next[h]]`, with its polygon on
+/// the left.
 struct HalfEdges<'a> {
     points: &'a [Vec2],
     origin: Vec<usize>,

@@ -8,13 +8,14 @@ use serde::{Deserialize, Serialize};
 use super::arc::WireArc;
 use super::geometry::Geometry;
 use super::mass::{self, Measures};
-use super::predicates::{convex_hull, is_convex, magnitude};
-use super::{polygon, round};
+use super::predicates::{convex_hull, is_convex};
+use super::{limits, polygon, round};
 use crate::error::{Error, Result, check};
 use crate::math::{Real, Rot, Vec2, vec2};
 
-/// A shape as the user writes it and as scene files and snapshots hold it (lengths in m, angles in rad,
-/// counter-clockwise, in the frame of the body). Nothing is checked before [`Shape::new`](super::Shape::new).
+/// A shape as the user writes it and as scene files and snapshots hold it (lengths in m, angles in
+/// rad, counter-clockwise, in the frame of the body). Nothing is checked before
+/// [`Shape::new`](super::Shape::new).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum ShapeDef {
@@ -97,7 +98,8 @@ pub enum ShapeDef {
         radius: Real,
         /// Direction of its first point, from the centre.
         start: Real,
-        /// Angle from its first point to its last: counter-clockwise above 0, clockwise below, a whole circle at ±2π.
+        /// Angle from its first point to its last: counter-clockwise above 0, clockwise below, a
+        /// whole circle at ±2π.
         sweep: Real,
     },
 }
@@ -114,63 +116,75 @@ impl ShapeDef {
     pub(super) fn build(self) -> Result<Built> {
         let (geometry, measures) = match self {
             Self::Circle { radius, center } => {
-                length("radius of the circle", radius)?;
-                point("center of the circle", center)?;
+                limits::length("radius of the circle", radius)?;
+                limits::point("center of the circle", center)?;
                 swept(vec![center], radius)
             }
             Self::Box { width, height, center, angle } => {
-                length("width of the box", width)?;
-                length("height of the box", height)?;
-                point("center of the box", center)?;
-                check::finite("angle of the box", angle)?;
+                limits::length("width of the box", width)?;
+                limits::length("height of the box", height)?;
                 let core = corners_of_box(width, height, center, angle);
-                check_convex("box", &core)?;
-                (Geometry::Swept { core, radius: 0.0 }, round::rectangle(width, height, center))
+                sharp("box", core, angle, round::rectangle(width, height, center))?
             }
             Self::RegularPolygon { sides, radius, center, angle } => {
                 if !(3..=MOST_SIDES).contains(&sides) {
                     let allowed = format!("3 to {MOST_SIDES}");
                     return Err(Error::invalid("sides of the regular polygon", sides, allowed));
                 }
-                length("radius of the regular polygon", radius)?;
-                point("center of the regular polygon", center)?;
-                check::finite("angle of the regular polygon", angle)?;
+                limits::length("radius of the regular polygon", radius)?;
                 let core = corners_of_regular(sides, radius, center, angle);
-                check_convex("regular polygon", &core)?;
-                (Geometry::Swept { core, radius: 0.0 }, round::regular(sides, radius, center))
+                sharp("regular polygon", core, angle, round::regular(sides, radius, center))?
             }
             Self::Polygon { vertices, holes, radius } => {
                 return build_polygon(&vertices, &holes, radius);
             }
             Self::Capsule { a, b, radius } => {
-                ends("capsule", a, b)?;
-                length("radius of the capsule", radius)?;
+                limits::ends("capsule", a, b)?;
+                limits::length("radius of the capsule", radius)?;
                 swept(vec![a, b], radius)
             }
             Self::Segment { a, b } => {
-                ends("segment", a, b)?;
+                limits::ends("segment", a, b)?;
                 (Geometry::Swept { core: vec![a, b], radius: 0.0 }, round::segment(a, b))
             }
-            Self::Arc { center, radius, start, sweep } => {
-                point("center of the arc", center)?;
-                length("radius of the arc", radius)?;
-                check::finite("start of the arc", start)?;
-                if !(sweep.abs() <= TAU && sweep.abs() > 0.0) {
-                    return Err(Error::invalid("sweep of the arc", sweep, "−2π to 2π, not 0"));
-                }
-                let arc = WireArc::new(center, radius, start, sweep);
-                (Geometry::Arc(arc), round::arc(center, radius, start, sweep))
-            }
+            Self::Arc { center, radius, start, sweep } => wire_arc(center, radius, start, sweep)?,
         };
         Ok(Built { def: self, geometry, measures })
     }
 }
 
+/// All points within `radius` of a convex core.
+fn swept(core: Vec<Vec2>, radius: Real) -> (Geometry, Measures) {
+    let measures = round::swept(&core, radius);
+    (Geometry::Swept { core, radius }, measures)
+}
+
+/// A convex polygon whose measures are known in closed form.
+fn sharp(
+    what: &str,
+    core: Vec<Vec2>,
+    angle: Real,
+    measures: Measures,
+) -> Result<(Geometry, Measures)> {
+    limits::point(&format!("center of the {what}"), measures.centroid)?;
+    check::finite(&format!("angle of the {what}"), angle)?;
+    limits::convex(what, &core)?;
+    Ok((Geometry::Swept { core, radius: 0.0 }, measures))
+}
+
+fn wire_arc(center: Vec2, radius: Real, start: Real, sweep: Real) -> Result<(Geometry, Measures)> {
+    limits::point("center of the arc", center)?;
+    limits::length("radius of the arc", radius)?;
+    check::finite("start of the arc", start)?;
+    if !(sweep.abs() <= TAU && sweep.abs() > 0.0) {
+        return Err(Error::invalid("sweep of the arc", sweep, "−2π to 2π, not 0"));
+    }
+    let arc = WireArc::new(center, radius, start, sweep);
+    Ok((Geometry::Arc(arc), round::arc(center, radius, start, sweep)))
+}
+
 fn build_polygon(vertices: &[Vec2], holes: &[Vec<Vec2>], radius: Real) -> Result<Built> {
     check::not_negative("radius of the rounded polygon", radius)?;
-    for &vertex in vertices.iter().chain(holes.iter().flatten()) {
-        point("vertex of the polygon", vertex)?;
-    }
     let mut rings = polygon::clean(vertices, holes)?;
     let convex = rings.len() == 1 && is_convex(&rings[0]);
     let def = |mut rings: Vec<Vec<Vec2>>| {
@@ -194,11 +208,6 @@ fn build_polygon(vertices: &[Vec2], holes: &[Vec<Vec2>], radius: Real) -> Result
     Ok(Built { def: def(rings), geometry, measures })
 }
 
-fn swept(core: Vec<Vec2>, radius: Real) -> (Geometry, Measures) {
-    let measures = round::swept(&core, radius);
-    (Geometry::Swept { core, radius }, measures)
-}
-
 /// Corners of a box, counter-clockwise from the lower left one.
 pub(super) fn corners_of_box(width: Real, height: Real, center: Vec2, angle: Real) -> Vec<Vec2> {
     let (w, h) = (width / 2.0, height / 2.0);
@@ -217,44 +226,3 @@ pub(super) fn corners_of_regular(sides: u32, radius: Real, center: Vec2, angle: 
 }
 
 const MOST_SIDES: u32 = 65_536;
-
-/// Lengths and coordinates that leave room for products of four of them, and for what cancels in these.
-const SMALLEST: Real = 1e-70;
-const LARGEST: Real = 1e70;
-
-fn length(what: &str, x: Real) -> Result<()> {
-    check::positive(what, x)?;
-    if (SMALLEST..=LARGEST).contains(&x) {
-        Ok(())
-    } else {
-        Err(Error::invalid(what, x, format!("{SMALLEST:e} to {LARGEST:e} m")))
-    }
-}
-
-fn point(what: &str, p: Vec2) -> Result<()> {
-    check::finite_vec(what, p)?;
-    if p.amax() <= LARGEST {
-        Ok(())
-    } else {
-        let got = format!("({:e}, {:e})", p.x, p.y);
-        Err(Error::invalid(what, got, format!("coordinates up to {LARGEST:e} m")))
-    }
-}
-
-fn ends(what: &str, a: Vec2, b: Vec2) -> Result<()> {
-    point(&format!("end a of the {what}"), a)?;
-    point(&format!("end b of the {what}"), b)?;
-    length(&format!("distance between the ends of the {what}"), (b - a).norm())
-}
-
-/// Refuses corners that rounding has bent or merged: a shape too small for where it is.
-fn check_convex(what: &str, ring: &[Vec2]) -> Result<()> {
-    if is_convex(ring) {
-        return Ok(());
-    }
-    Err(Error::invalid(
-        format!("size of the {what}"),
-        "lost in rounding",
-        format!("sizes well above {:e} m so far from the origin", magnitude(ring) * Real::EPSILON),
-    ))
-}

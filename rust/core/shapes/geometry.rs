@@ -19,8 +19,8 @@ pub struct Ring {
 
 #[derive(Debug)]
 pub(super) enum Geometry {
-    /// All points within `radius` of a convex core: one point, two, or a counter-clockwise polygon. Two
-    /// points without radius are a wire.
+    /// All points within `radius` of a convex core: one point, two, or a counter-clockwise polygon.
+    /// Two points without radius are a wire.
     Swept { core: Vec<Vec2>, radius: Real },
     /// A polygon that is not convex: outline, holes, and the hull that bounds them.
     Polygon { rings: Vec<Vec<Vec2>>, hull: Vec<Vec2> },
@@ -74,7 +74,8 @@ impl Geometry {
     }
 }
 
-/// Polylines of a convex core rounded by a disk: each corner turns in equal steps of at most `max_angle`.
+/// Polylines of a convex core rounded by a disk: each corner turns in equal steps of at most
+/// `max_angle`.
 pub(super) fn rounded_outline(core: &[Vec2], radius: Real, max_angle: Real) -> Vec<Vec2> {
     let corner = |Corner { vertex, before, turn, .. }: Corner| {
         let steps = steps(turn, max_angle);

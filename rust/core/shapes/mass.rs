@@ -55,18 +55,20 @@ pub(super) struct Measures {
 
 /// Measures of a polygon: a counter-clockwise outline and clockwise holes.
 ///
-/// With the vertices rᵢ taken about a point and kᵢ = rᵢ × rᵢ₊₁,
-/// A = ½ Σ kᵢ, A·c = ⅙ Σ kᵢ (rᵢ + rᵢ₊₁) (P. Bourke, "Calculating the area and centroid of a polygon", 1988)
-/// and J = 1/12 Σ kᵢ (rᵢ·rᵢ + rᵢ·rᵢ₊₁ + rᵢ₊₁·rᵢ₊₁), the signed sum over the triangles that the edges
-/// make with that point. The sums are signed and hence hold for any simple outline. The point is a vertex
-/// for A and c, and c itself for J; the products are formed in double-double (Joldes, Muller, Popescu,
-/// "Tight and rigorous error bounds for basic building blocks of double-word arithmetic", 2017), so what
-/// cancels in needles and far from the origin cancels 16 digits below what is kept.
+/// With the vertices rᵢ taken about a point and kᵢ = rᵢ × rᵢ₊₁, A = ½ Σ kᵢ, A·c = ⅙ Σ kᵢ (rᵢ +
+/// rᵢ₊₁) (P. Bourke, "Calculating the area and centroid of a polygon", 1988) and J = 1/12 Σ kᵢ
+/// (rᵢ·rᵢ + rᵢ·rᵢ₊₁ + rᵢ₊₁·rᵢ₊₁), the signed sum over the triangles that the edges make with that
+/// point. The sums are signed and hence hold for any simple outline. The point is a vertex for A
+/// and c, and c itself for J; the products are formed in double-double (Joldes, Muller, Popescu,
+/// "Tight and rigorous error bounds for basic building blocks of double-word arithmetic", 2017), so
+/// what cancels in needles and far from the origin cancels 16 digits below what is kept.
 pub(super) fn polygon(rings: &[Vec<Vec2>]) -> Measures {
     let origin = rings[0][0];
     let reach = rings.iter().flatten().fold(0.0, |m: Real, p| (p - origin).amax().max(m));
     let scale = binade(reach);
     let about_vertex = sums(rings, origin, vec2(0.0, 0.0), scale);
+    // Nothing cancels in this quotient, so plain doubles do. (twofloat 0.8 divides one double-double
+    // by another no better: the residual of its Newton step is rounded.)
     let offset = about_vertex.first / about_vertex.area;
     let area = about_vertex.area * scale * scale;
     let about_centroid = sums(rings, origin, offset, scale);
@@ -84,8 +86,8 @@ struct Sums {
     second: Real,
 }
 
-/// The sums above about `origin + offset·scale`, in units of `scale` (a power of two, so that no product of
-/// four lengths over- or underflows on the way and no digit is lost).
+/// The sums above about `origin + offset·scale`, in units of `scale` (a power of two, so that no
+/// product of four lengths over- or underflows on the way and no digit is lost).
 fn sums(rings: &[Vec<Vec2>], origin: Vec2, offset: Vec2, scale: Real) -> Sums {
     let shrink = 1.0 / scale;
     let arm = |p: Vec2| {

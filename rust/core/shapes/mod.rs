@@ -1,12 +1,12 @@
 //! Shapes: what a body looks like, and all that geometry says about it.
 //!
-//! A [`ShapeDef`] is what the user writes; [`Shape::new`] checks it, cleans it, and answers: area, centroid and
-//! second moment to the last digits ([`Shape::mass_properties`]), extents ([`Shape::projection`],
-//! [`Shape::bounds_at`]), membership, convex pieces for collision, polylines for drawing. Several shapes of one body
-//! cast one [`Silhouette`].
+//! A [`ShapeDef`] is what the user writes; [`Shape::new`] checks it, cleans it, and answers: area,
+//! centroid and second moment to the last digits ([`Shape::mass_properties`]), extents
+//! ([`Shape::projection`], [`Shape::bounds_at`]), membership, convex pieces for collision,
+//! polylines for drawing. Several shapes of one body cast one [`Silhouette`].
 //!
-//! No length in metres is hidden in here: every tolerance is relative to the shape. Lengths from 1e-70 to
-//! 1e70 m are accepted, since moments hold products of four lengths.
+//! No length in metres is hidden in here: every tolerance is relative to the shape. Lengths from
+//! 1e-70 to 1e70 m are accepted, since moments hold products of four lengths.
 
 mod arc;
 mod bounds;
@@ -14,6 +14,7 @@ mod crossing;
 mod decompose;
 mod def;
 mod geometry;
+mod limits;
 mod mass;
 mod polygon;
 mod predicates;
@@ -57,14 +58,15 @@ struct Inner {
 impl Shape {
     /// The shape of a definition.
     ///
-    /// Polygons are cleaned: vertices that coincide with the next or lie on the line between their neighbours, up to
-    /// four ulp of the largest coordinate, are merged; the outline is made counter-clockwise, holes clockwise.
+    /// Polygons are cleaned: vertices that coincide with the next or lie on the line between their
+    /// neighbours, up to four ulp of the largest coordinate, are merged; the outline is made
+    /// counter-clockwise, holes clockwise.
     ///
     /// # Errors
-    /// [`Error::Invalid`] for numbers that are not finite, lengths that are not above 0 or outside 1e-70 … 1e70 m, shapes
-    /// smaller than rounding at their place, and outlines with fewer than three corners, spikes, edges that cross or
-    /// touch, or holes that are not inside the outline and outside one another. Edges are named by the numbers of the
-    /// vertices as given.
+    /// [`Error::Invalid`] for numbers that are not finite, lengths that are not above 0 or outside
+    /// 1e-70 … 1e70 m, shapes smaller than rounding at their place, and outlines with fewer than
+    /// three corners, spikes, edges that cross or touch, or holes that are not inside the outline
+    /// and outside one another. Edges are named by the numbers of the vertices as given.
     pub fn new(def: ShapeDef) -> Result<Self> {
         let Built { def, geometry, measures } = def.build()?;
         for (what, x) in [
@@ -242,8 +244,8 @@ impl Shape {
         self.0.geometry.extent_from(center)
     }
 
-    /// Whether `p` belongs to the shape, its border included. Exact for polygons (as stored), up to rounding for
-    /// round borders. Wires hold no point.
+    /// Whether `p` belongs to the shape, its border included. Exact for polygons (as stored), up to
+    /// rounding for round borders. Wires hold no point.
     #[must_use]
     pub fn contains(&self, p: Vec2) -> bool {
         self.0.geometry.contains(p)
@@ -252,9 +254,9 @@ impl Shape {
 
 /// Pieces and outlines.
 impl Shape {
-    /// Convex polygons, counter-clockwise, that cover the polygon without overlap, holes left out; their vertices are its
-    /// vertices. Of a rounded polygon the core, to be grown by [`Shape::rounding`]; none for circles,
-    /// capsules and wires. Computed at the first call.
+    /// Convex polygons, counter-clockwise, that cover the polygon without overlap, holes left out;
+    /// their vertices are its vertices. Of a rounded polygon the core, to be grown by
+    /// [`Shape::rounding`]; none for circles, capsules and wires. Computed at the first call.
     #[must_use]
     pub fn convex_pieces(&self) -> &[Vec<Vec2>] {
         self.0.pieces.get_or_init(|| match &self.0.geometry {
@@ -270,8 +272,9 @@ impl Shape {
         if let Geometry::Swept { radius, .. } = self.0.geometry { radius } else { 0.0 }
     }
 
-    /// Polylines for drawing: outline and holes closed, wires open (a whole circle closed). Arcs are drawn through
-    /// points of theirs that are at most `max_angle` apart (rad; taken as at least 1e-4 and at most π/2).
+    /// Polylines for drawing: outline and holes closed, wires open (a whole circle closed). Arcs
+    /// are drawn through points of theirs that are at most `max_angle` apart (rad; taken as at
+    /// least 1e-4 and at most π/2).
     #[must_use]
     pub fn outline(&self, max_angle: Real) -> Vec<Ring> {
         match &self.0.geometry {
@@ -288,8 +291,8 @@ impl Shape {
         }
     }
 
-    /// Hull of the core, relative to `origin`, and the radius around it; computed from the definition, so that
-    /// boxes far from the origin keep their digits.
+    /// Hull of the core, relative to `origin`, and the radius around it; computed from the
+    /// definition, so that boxes far from the origin keep their digits.
     fn hull_about(&self, origin: Vec2) -> (Vec<Vec2>, Real) {
         match (&self.0.def, &self.0.geometry) {
             (&ShapeDef::Box { width, height, center, angle }, _) => {

@@ -1,8 +1,9 @@
-//! From what the user drew to clean rings: vertices merged, outlines that cannot be refused, orientation set.
+//! From what the user drew to clean rings: vertices merged, outlines that cannot be refused,
+//! orientation set.
 
-use super::crossing;
 use super::predicates::{self, Place, place};
-use crate::error::{Error, Result, check};
+use super::{crossing, limits};
+use crate::error::{Error, Result};
 use crate::math::{Real, Vec2, cross};
 
 /// A ring with the user's numbers of its vertices.
@@ -12,9 +13,10 @@ struct Ring {
     numbers: Vec<usize>,
 }
 
-/// Clean rings, ready for use: the outline first, counter-clockwise, then the holes, clockwise. No two vertices
-/// coincide, none lies on the line between its neighbours, no edges cross or touch, every hole lies inside the
-/// outline and outside the other holes. Cleaning clean rings again changes nothing.
+/// Clean rings, ready for use: the outline first, counter-clockwise, then the holes, clockwise. No
+/// two vertices coincide, none lies on the line between its neighbours, no edges cross or touch,
+/// every hole lies inside the outline and outside the other holes. Cleaning clean rings again
+/// changes nothing.
 pub(super) fn clean(vertices: &[Vec2], holes: &[Vec<Vec2>]) -> Result<Vec<Vec<Vec2>>> {
     let mut rings = vec![tidy("the outline".to_string(), vertices)?];
     for (i, hole) in holes.iter().enumerate() {
@@ -32,11 +34,11 @@ pub(super) fn clean(vertices: &[Vec2], holes: &[Vec<Vec2>]) -> Result<Vec<Vec<Ve
     Ok(rings.into_iter().enumerate().map(orient).collect())
 }
 
-/// Merges duplicate and collinear vertices. Rounding leaves a coordinate uncertain by an ulp or so of the largest
-/// one; what differs by no more than four of those is the same.
+/// Merges duplicate and collinear vertices. Rounding leaves a coordinate uncertain by an ulp or so
+/// of the largest one; what differs by no more than four of those is the same.
 fn tidy(name: String, vertices: &[Vec2]) -> Result<Ring> {
     for (i, &vertex) in vertices.iter().enumerate() {
-        check::finite_vec(&format!("vertex {i} of {name}"), vertex)?;
+        limits::point(&format!("vertex {i} of {name}"), vertex)?;
     }
     let mut ring: Vec<(usize, Vec2)> = vertices.iter().copied().enumerate().collect();
     loop {
@@ -79,7 +81,8 @@ fn merge_duplicates(ring: &mut Vec<(usize, Vec2)>, tolerance: Real) {
     }
 }
 
-/// Drops vertices on the line between their neighbours; refuses those at which the outline runs back on itself.
+/// Drops vertices on the line between their neighbours; refuses those at which the outline runs
+/// back on itself.
 fn merge_straight(name: &str, ring: &mut Vec<(usize, Vec2)>, tolerance: Real) -> Result<()> {
     let n = ring.len();
     let mut kept: Vec<(usize, Vec2)> = Vec::with_capacity(n);

@@ -93,7 +93,8 @@ pub(super) fn magnitude(points: &[Vec2]) -> Real {
     points.iter().fold(0.0, |m, p| p.x.abs().max(p.y.abs()).max(m))
 }
 
-/// The largest power of two not above `x`, which is normal and positive: scaling by it loses no digit.
+/// The largest power of two not above `x`, which is normal and positive: scaling by it loses no
+/// digit.
 pub(super) fn binade(x: Real) -> Real {
     const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
     Real::from_bits(x.to_bits() & EXPONENT)

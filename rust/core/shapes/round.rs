@@ -1,4 +1,5 @@
-//! Measures of the shapes that are known in closed form: boxes, regular and rounded polygons, wires.
+//! Measures of the shapes that are known in closed form: boxes, regular and rounded polygons,
+//! wires.
 
 use std::f64::consts::PI;
 
@@ -67,9 +68,10 @@ fn sinc_defect(x: Real) -> Real {
     terms.fold(0.0, |tail, factor| (1.0 - tail) * (x * x) / factor)
 }
 
-/// The Minkowski sum of a convex core and a disk of radius r: one point (a disk), two points (a capsule) or
-/// a counter-clockwise convex polygon, with lengths Lᵢ, midpoints mᵢ and outward normals nᵢ of its edges and
-/// angles θᵢ by which it turns at its vertices vᵢ. Core, rectangles on the edges and sectors at the corners give
+/// The Minkowski sum of a convex core and a disk of radius r: one point (a disk), two points (a
+/// capsule) or a counter-clockwise convex polygon, with lengths Lᵢ, midpoints mᵢ and outward
+/// normals nᵢ of its edges and angles θᵢ by which it turns at its vertices vᵢ. Core, rectangles on
+/// the edges and sectors at the corners give
 ///
 /// - A = A₀ + r Σ Lᵢ + π r² (Steiner), perimeter Σ Lᵢ + 2 π r,
 /// - A c = A₀ c₀ + r Σ Lᵢ mᵢ + ½ r² Σ θᵢ vᵢ: what rectangles and sectors add off the edges and vertices,
@@ -150,7 +152,8 @@ pub(super) fn corners(core: &[Vec2]) -> Vec<Corner> {
     let normal = |a: Vec2, b: Vec2| -perp((b - a).normalize());
     let corner = |[a, b, c]: [Vec2; 3]| {
         let (before, after) = (normal(a, b), normal(b, c));
-        // Capsules turn back exactly: the angle is π, whatever sign the zero of the cross product has.
+        // Capsules turn back exactly: the angle is π, whatever sign the zero of the cross product
+        // has.
         let turn = atan2(cross(before, after), before.dot(&after)).abs();
         Corner { vertex: b, before, after, turn }
     };

@@ -9,12 +9,14 @@ use crate::math::{Real, Rot, Vec2, perp, vec2};
 /// The outline of one body's shapes as seen from far away, ready to be asked often.
 #[derive(Clone, Debug)]
 pub struct Silhouette {
-    /// Hull vertices of all parts, relative to the centroid of the first: only directions matter here.
+    /// Hull vertices of all parts, relative to the centroid of the first: only directions matter
+    /// here.
     points: Vec<Vec2>,
     parts: Vec<Part>,
 }
 
-/// Points within a radius of the convex hull of `points[from..to]`, or a wire about the first of them.
+/// Points within a radius of the convex hull of `points[from..to]`, or a wire about the first of
+/// them.
 #[derive(Clone, Debug)]
 struct Part {
     from: usize,
@@ -42,10 +44,11 @@ impl Silhouette {
         Self { points, parts }
     }
 
-    /// Width of the shadow that light along `direction` (in the frame of the body, of any length above 0) casts on
-    /// a line across it (m): the measure of the union of the parts' extents, so that gaps between parts do not
-    /// count, and overlaps count once. 0 without shapes. Exact for every shape: 2r for a circle, a |sin φ| + b |cos φ|
-    /// for a box seen at φ, the extent of the hull for a polygon.
+    /// Width of the shadow that light along `direction` (in the frame of the body, of any length
+    /// above 0) casts on a line across it (m): the measure of the union of the parts' extents, so
+    /// that gaps between parts do not count, and overlaps count once. 0 without shapes. Exact for
+    /// every shape: 2r for a circle, a |sin φ| + b |cos φ| for a box seen at φ, the extent of the
+    /// hull for a polygon.
     #[must_use]
     pub fn width_across(&self, direction: Vec2) -> Real {
         let Some(across) = perp(direction).try_normalize(0.0) else { return 0.0 };
@@ -66,9 +69,10 @@ impl Silhouette {
         measure_of_union(extents)
     }
 
-    /// Extent, across the motion, of the box along the world's axes that holds the turned shapes (m): with its width w and
-    /// height h, w |sin| + h |cos| of the motion's angle. The simple estimate that many games make, never below
-    /// [`Silhouette::width_across`]; for comparison with it.
+    /// Extent, across the motion, of the box along the world's axes that holds the turned shapes
+    /// (m): with its width w and height h, w |sin| + h |cos| of the motion's angle. The simple
+    /// estimate that many games make, never below [`Silhouette::width_across`]; for comparison with
+    /// it.
     #[must_use]
     pub fn bounding_box_width_across(&self, direction_world: Vec2, rot: Rot) -> Real {
         let Some(across) = perp(direction_world).try_normalize(0.0) else { return 0.0 };

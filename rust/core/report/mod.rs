@@ -1,0 +1,13 @@
+//! Error against run time: every scene, by every method, at a row of steps and tolerances.
+
+mod laws;
+mod order;
+mod study;
+mod verify;
+
+pub use laws::{Law, Laws, Limits, verify_laws};
+pub use order::{Order, measured_order};
+pub use study::{
+    Mode, Path, Row, Study, ladder_of_steps, ladder_of_tolerances, study, thrown_ball,
+};
+pub use verify::{CheckRow, MethodRow, Verdict, verify};

@@ -1,0 +1,165 @@
+//! Named problems with a known answer. They are part of the product: tests, the report, the command
+//! line and Python all use this one copy.
+
+mod drag;
+mod matter;
+mod newton;
+mod orbits;
+mod reversal;
+mod rotation;
+
+use crate::error::{Error, Result};
+use crate::math::{Pose, Real, Vec2, vec2};
+use crate::world::{Trajectory, World};
+
+/// A problem, and what to reach on it.
+#[derive(Clone, Copy)]
+pub struct Scene {
+    /// Number in the catalogue ("S3").
+    pub id: &'static str,
+    /// Name ("fall_with_drag").
+    pub name: &'static str,
+    /// One line.
+    pub title: &'static str,
+    /// What it is, and the formula of its answer.
+    pub about: &'static str,
+    /// What is known of it.
+    pub answer: Answer,
+    /// What is asked beyond the error of the motion.
+    pub checks: &'static [Check],
+}
+
+/// What is known of a scene.
+#[derive(Clone, Copy)]
+pub enum Answer {
+    /// The motion of every body.
+    Motion(Motion),
+    /// Numbers.
+    Numbers(fn() -> Result<Vec<Number>>),
+}
+
+/// A scene whose motion is known.
+#[derive(Clone, Copy)]
+pub struct Motion {
+    /// Makes the world.
+    pub build: fn() -> Result<World>,
+    /// The bodies' frames at a time, in body order.
+    pub exact: fn(Real) -> Vec<Pose>,
+    /// How long it runs (s).
+    pub duration: Real,
+    /// Fixed step at which it is judged (s), divided into the world's substeps.
+    pub dt: Real,
+    /// Length that errors are measured against (m).
+    pub length: Real,
+    /// Largest error allowed at the fixed step.
+    pub fixed: Real,
+    /// Largest error allowed with a tolerance.
+    pub toleranced: Real,
+    /// The tolerance it is run with.
+    pub tolerance: Real,
+    /// Methods other than the default are judged on it too. Not where one step is the whole run.
+    pub by_method: bool,
+}
+
+/// A number with its exact value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Number {
+    /// What it is.
+    pub what: String,
+    /// As computed.
+    pub value: Real,
+    /// As it should be.
+    pub exact: Real,
+    /// Largest difference allowed, relative to the exact value (to 1 where that is 0).
+    pub asked: Real,
+}
+
+/// Which column of the catalogue a figure stands in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Column {
+    /// At a fixed step.
+    Fixed,
+    /// With a tolerance.
+    Tolerance,
+}
+
+/// Something that is asked of a scene.
+#[derive(Clone, Copy)]
+pub struct Check {
+    /// What is measured.
+    pub what: &'static str,
+    /// How it is run.
+    pub column: Column,
+    /// Largest value allowed.
+    pub asked: Real,
+    /// Measures it.
+    pub measure: fn() -> Result<Real>,
+}
+
+/// Every scene, in the order of the catalogue.
+pub static CATALOGUE: &[&Scene] = &[
+    &newton::PROJECTILE,
+    &newton::CONSTANT_FORCE,
+    &newton::SCHEDULED_FORCE,
+    &drag::FALL,
+    &drag::COAST,
+    &drag::COAST_IN_ONE_STEP,
+    &drag::SILHOUETTE,
+    &rotation::SPIN_DECAY,
+    &orbits::KEPLER,
+    &orbits::CIRCLE,
+    &rotation::FREE_SPIN,
+    &rotation::VARYING_TORQUE,
+    &matter::POLYGONS,
+    &reversal::THREE_BODIES,
+];
+
+/// The scene of this id or name, whatever the case.
+///
+/// # Errors
+/// [`Error::Invalid`] with the scenes there are.
+pub fn scene(name: &str) -> Result<&'static Scene> {
+    let same = |own: &str| own.eq_ignore_ascii_case(name);
+    let found = CATALOGUE.iter().find(|scene| same(scene.id) || same(scene.name)).copied();
+    found.ok_or_else(|| {
+        let names: Vec<_> = CATALOGUE.iter().map(|s| format!("{} ({})", s.name, s.id)).collect();
+        Error::invalid("scene", format!("{name:?}"), names.join(", "))
+    })
+}
+
+impl Motion {
+    /// Largest error of a recorded motion: (|x − x_ref| + ℓ|θ − θ_ref|)/L over times and bodies, ℓ the
+    /// body's size and L the scene's length.
+    #[must_use]
+    pub fn error(&self, world: &World, motion: &Trajectory) -> Real {
+        let mut worst: Real = 0.0;
+        for (k, time) in motion.times.iter().enumerate() {
+            for (i, exact) in (self.exact)(*time).iter().enumerate() {
+                let (pose, size) = (motion.pose(k, i), world.bodies().infos[i].size);
+                let apart = (pose.position - exact.position).norm()
+                    + size * (pose.angle - exact.angle).abs();
+                worst = if apart.is_nan() { Real::INFINITY } else { worst.max(apart) };
+            }
+        }
+        worst / self.length
+    }
+}
+
+impl Number {
+    /// Difference from the exact value, relative to it (to 1 where it is 0).
+    #[must_use]
+    pub fn error(&self) -> Real {
+        (self.value - self.exact).abs() / if self.exact == 0.0 { 1.0 } else { self.exact.abs() }
+    }
+}
+
+/// A pose that is not turned.
+fn at(x: Real, y: Real) -> Pose {
+    Pose::new(vec2(x, y), 0.0)
+}
+
+/// A world without gravity.
+fn weightless() -> Result<World> {
+    World::new(Vec2::zeros())
+}
