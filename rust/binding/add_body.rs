@@ -51,7 +51,6 @@ impl World {
         drag_coefficient=0.4, drag_width=SILHOUETTE, force=ZERO, torque=0.0, name=None,
     ))]
     #[allow(clippy::too_many_arguments, reason = "one keyword each in Python")]
-    #[allow(clippy::needless_pass_by_value, reason = "as PyO3 hands them")]
     fn add_body<'py>(
         slf: &Bound<'py, Self>,
         shape: Option<&Bound<'py, PyAny>>,

@@ -98,6 +98,7 @@ impl From<DragWidth> for Width {
 }
 
 /// A drag width as an argument.
+#[derive(Clone, Copy)]
 pub struct WidthArg(pub DragWidth);
 
 impl<'py> FromPyObject<'_, 'py> for WidthArg {
@@ -119,6 +120,7 @@ impl<'py> FromPyObject<'_, 'py> for WidthArg {
 }
 
 /// A kind of body as an argument.
+#[derive(Clone, Copy)]
 pub struct KindArg(pub BodyKind);
 
 impl<'py> FromPyObject<'_, 'py> for KindArg {
