@@ -125,7 +125,8 @@ def test_restoring_brings_the_objects_back() -> None:
     world.step(0.1)
     world.restore(snapshot)
     assert (world.bodies, world.fields, world.schedules) == (before, fields, schedules)
-    assert [part.removed for part in (*before, *fields, *schedules)] == [False] * 6
+    parts: list[Any] = [*before, *fields, *schedules]
+    assert [part.removed for part in parts] == [False] * 6
     assert new.removed
     assert world.add_body(mass=3) is not new
     assert new.removed  # though its handle is in use again

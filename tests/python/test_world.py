@@ -2,6 +2,7 @@
 
 import gc
 import math
+import signal
 import threading
 import weakref
 from collections.abc import Callable
@@ -73,7 +74,8 @@ def test_locks(lock: str) -> None:
     setattr(body, lock, True)
     assert [body.lock_x, body.lock_y, body.lock_rotation].count(True) == 1
     assert [*body.velocity, body.angular_velocity].count(0) == 1
-    assert getattr(world.add_body(cb.Circle(1), **{lock: True}), lock)
+    arguments: Any = {lock: True}
+    assert getattr(world.add_body(cb.Circle(1), **arguments), lock)
 
 
 @pytest.mark.parametrize("width", ["silhouette", "bounding_box", 0.3])
@@ -140,7 +142,8 @@ def test_columns_are_the_bodies_own(name: str) -> None:
     vector = name in {"positions", "velocities", "forces"}
     values = np.arange(1.0, 7.0).reshape(3, 2) if vector else np.arange(1.0, 4.0)
     setattr(world, name, values)
-    for body, value in zip(bodies, values, strict=True):
+    wanted: list[Any] = values.tolist()
+    for body, value in zip(bodies, wanted, strict=True):
         assert getattr(body, attribute) == pytest.approx(tuple(value) if vector else value)
     read = getattr(world, name)
     np.testing.assert_allclose(read, values, rtol=1e-15)
@@ -194,7 +197,7 @@ def test_out_must_be_writable_and_columns_known() -> None:
         three()[0].read("masses")  # type: ignore[arg-type]
 
 
-REFUSED: list[tuple[Callable[[World, list[Body]], Any], type[Exception], str]] = [
+REFUSED: list[tuple[Callable[[Any, list[Body]], Any], type[Exception], str]] = [
     (lambda w, _: w.add_body(cb.Circle(1), mass=-1), ValueError, "mass is -1"),
     (lambda w, _: w.add_body(), ValueError, "mass of a dynamic body"),
     (lambda w, _: w.add_body(cb.Circle(1), kind="solid"), ValueError, "kind is 'solid'"),
@@ -315,7 +318,7 @@ def test_worlds_and_bodies_die_with_their_cycles() -> None:
     vars(world)["me"] = world
     vars(bodies[0])["friends"] = [bodies[1], world]
     vars(bodies[0])["kept"] = world.snapshot()
-    alive = [weakref.ref(world), *map(weakref.ref, bodies)]
+    alive: list[Any] = [weakref.ref(world), *map(weakref.ref, bodies)]
     gc.collect()
     assert all(ref() is not None for ref in alive)
     # A body alone keeps its world.
@@ -452,3 +455,25 @@ def test_body_order(acts: list[str], random: Any) -> None:
             expected[index] = expected[-1]
             expected.pop()
         assert world.bodies == expected
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a timer of POSIX")
+def test_a_long_run_can_be_interrupted() -> None:
+    def stop(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    world, (box, _, _) = three()
+    before = world.positions
+    old = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, 0.2)
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            world.step(1e-6, 2**32 - 1)  # minutes
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, old)
+    np.testing.assert_array_equal(world.positions, before)
+    assert world.time == 0
+    box.apply_force((1, 0))
+    world.step(1)
+    assert world.time == 1
