@@ -5,11 +5,12 @@ use culbuto::body::{BodyHandle, BodyKind, DragWidth, Locks};
 use culbuto::math::{Real, vec2};
 use pyo3::prelude::*;
 
-use crate::body::{Body, KindArg, WidthArg};
+use crate::body::Body;
 use crate::convert::Vec2Arg;
 use crate::error::to_py;
 use crate::parts::Place;
 use crate::shape::parts;
+use crate::words::{KindArg, WidthArg};
 use crate::world::World;
 
 const ZERO: Vec2Arg = Vec2Arg(vec2(0.0, 0.0));

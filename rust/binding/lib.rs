@@ -22,6 +22,7 @@ mod snapshot;
 mod stepper;
 mod stepping;
 mod vec2;
+mod words;
 mod world;
 
 /// The engine of the culbuto package. Import `culbuto` instead.
