@@ -159,7 +159,7 @@ fn signals() -> impl FnMut() -> Result<(), BoxError> {
             return Ok(());
         }
         last = Instant::now();
-        Ok(Python::attach(|py| py.check_signals())?)
+        Ok(Python::attach(Python::check_signals)?)
     }
 }
 
