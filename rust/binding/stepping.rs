@@ -159,7 +159,12 @@ fn signals() -> impl FnMut() -> Result<(), BoxError> {
             return Ok(());
         }
         last = Instant::now();
-        Ok(Python::attach(Python::check_signals)?)
+        #[allow(
+            clippy::redundant_closure_for_method_calls,
+            reason = "the method is of one lifetime only"
+        )]
+        let checked = Python::attach(|py| py.check_signals());
+        Ok(checked?)
     }
 }
 
