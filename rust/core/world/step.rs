@@ -15,6 +15,8 @@ use crate::world::{Clock, Plan, State, StepReport, World};
 #[derive(Clone, Debug, Default)]
 pub(super) struct Backup {
     moving: Vec<(usize, Pose, Twist)>,
+    /// Forces for the next step; empty where there are none.
+    applied: Vec<Wrench>,
     clock: Clock,
     ledger: Ledger,
 }
@@ -87,12 +89,12 @@ impl World {
     pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         self.planned();
         if let Some(plan) = &self.plan {
-            self.scratch.backup.save(&self.state, plan);
+            self.scratch.backup.save(&self.state, plan, self.applied);
         }
         let report = std::mem::take(&mut self.report);
         let result = work(self);
         if result.is_err() {
-            self.scratch.backup.restore(&mut self.state);
+            self.applied = self.scratch.backup.restore(&mut self.state);
             self.report = report;
         }
         result
@@ -243,18 +245,28 @@ fn is_finite(bodies: &Bodies, i: usize) -> bool {
 }
 
 impl Backup {
-    fn save(&mut self, state: &State, plan: &Plan) {
+    fn save(&mut self, state: &State, plan: &Plan, applied: bool) {
         let bodies = &state.bodies;
         self.moving.clear();
         self.moving.extend(plan.moving().map(|i| (i, bodies.poses[i], bodies.twists[i])));
+        self.applied.clear();
+        if applied {
+            self.applied.extend_from_slice(&bodies.applied);
+        }
         (self.clock, self.ledger) = (state.clock, state.ledger);
     }
 
-    fn restore(&self, state: &mut State) {
+    /// Puts the state back, and says whether forces wait for the next step.
+    fn restore(&self, state: &mut State) -> bool {
         for &(i, pose, twist) in &self.moving {
             (state.bodies.poses[i], state.bodies.twists[i]) = (pose, twist);
         }
+        let applied = !self.applied.is_empty();
+        if applied {
+            state.bodies.applied.clone_from(&self.applied);
+        }
         (state.clock, state.ledger) = (self.clock, self.ledger);
+        applied
     }
 }
 
