@@ -4,7 +4,7 @@ use culbuto::math::{self, Real};
 use numpy::{PyArray1, PyUntypedArray};
 use pyo3::exceptions::{PyIndexError, PyTypeError, PyValueError, PyZeroDivisionError};
 use pyo3::prelude::*;
-use pyo3::types::{PyIterator, PyTuple};
+use pyo3::types::{PyFloat, PyIterator, PyTuple};
 
 use crate::convert::{Operand, Vec2Arg};
 
@@ -179,6 +179,9 @@ impl<'py> FromPyObject<'_, 'py> for Scalar {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(float) = object.cast::<PyFloat>() {
+            return Ok(Self(float.value()));
+        }
         match object.extract() {
             Ok(number) if object.cast::<PyUntypedArray>().is_err() => Ok(Self(number)),
             _ => Err(PyTypeError::new_err("expected a number")),
