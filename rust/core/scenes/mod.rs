@@ -2,11 +2,14 @@
 //! line and Python all use this one copy.
 
 mod drag;
+pub mod file;
 mod matter;
 mod newton;
 mod orbits;
 mod reversal;
 mod rotation;
+
+pub use file::SceneFile;
 
 use crate::error::{Error, Result};
 use crate::math::{Pose, Real, Vec2, vec2};

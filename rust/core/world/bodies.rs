@@ -167,6 +167,14 @@ impl BodyMut<'_> {
         Ok(())
     }
 
+    /// Puts the centre of mass at a position (m); the frame goes with it.
+    pub fn place_center_of_mass(&mut self, center: Vec2) -> Result<()> {
+        check::finite_vec("center_at", center)?;
+        let i = self.index;
+        self.bodies().poses[i].position = center;
+        Ok(())
+    }
+
     /// Turns the body's frame to an angle (rad); its position stays.
     pub fn set_angle(&mut self, angle: Real) -> Result<()> {
         check::finite("angle", angle)?;

@@ -178,6 +178,18 @@ impl World {
         Ok(())
     }
 
+    /// World time, and what the clock knows beyond its last digit (s).
+    pub(crate) fn clock(&self) -> (Real, Real) {
+        (self.state.clock.now, self.state.clock.behind)
+    }
+
+    /// Sets what [`World::clock`] gives.
+    pub(crate) fn set_clock(&mut self, time: Real, remainder: Real) -> Result<()> {
+        self.set_time(time)?;
+        self.state.clock.behind = check::finite("time_remainder", remainder)?;
+        Ok(())
+    }
+
     /// Sets gravity (m/s²).
     pub fn set_gravity(&mut self, gravity: Vec2) -> Result<()> {
         self.state.settings.gravity = check::finite_vec("gravity", gravity)?;

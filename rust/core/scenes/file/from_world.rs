@@ -1,0 +1,122 @@
+//! From a world to a scene file.
+
+use super::{
+    BodyLabel, SceneBody, SceneField, SceneFile, SceneOscillating, SceneSchedule, SceneSettings,
+    wrong,
+};
+use crate::body::BodyHandle;
+use crate::error::Result;
+use crate::forces::{BuiltInField, ForceField, Schedule};
+use crate::math::{Pose, Real, Vec2, Wrench};
+use crate::world::World;
+
+impl SceneFile {
+    /// The scene that begins where a world is: the world made from it goes on to the same bits. Name,
+    /// description and `run` are the defaults; the energy books (work, dissipation) are not in it.
+    ///
+    /// # Errors
+    /// [`crate::Error::SceneFile`] for what a file cannot hold: a field that is the user's own code or
+    /// acts on a body that is gone, and forces that wait for the next step only.
+    pub fn from_world(world: &World) -> Result<Self> {
+        let bodies = world.bodies();
+        if let Some(i) = bodies.applied.iter().position(|wrench| *wrench != Wrench::ZERO) {
+            let message = "a force was applied for the next step only, which a file cannot hold; \
+                           step first, or give the body a constant force";
+            return Err(wrong(format!("bodies[{i}]"), message));
+        }
+        let settings = world.settings();
+        let (time, time_remainder) = world.clock();
+        let fields = world.fields().iter().enumerate();
+        Ok(Self {
+            gravity: settings.gravity,
+            air: settings.air,
+            settings: SceneSettings {
+                method: settings.method.clone(),
+                substeps: settings.substeps,
+                closed_form: settings.closed_form,
+            },
+            time,
+            time_remainder,
+            bodies: (0..bodies.len()).map(|i| body(world, i)).collect(),
+            schedules: world
+                .schedules()
+                .iter()
+                .map(|own| schedule(world, own))
+                .collect::<Result<_>>()?,
+            fields: fields.map(|(i, own)| field(world, i, own.as_ref())).collect::<Result<_>>()?,
+            ..Self::default()
+        })
+    }
+}
+
+/// A body, by its frame if that gives the centre of mass back to the bit, else by its centre of mass.
+fn body(world: &World, i: usize) -> SceneBody {
+    let bodies = world.bodies();
+    let def = bodies.def(i);
+    let frame = Pose::new(def.position, def.angle);
+    let (center, found) = (bodies.poses[i].position, frame.apply(bodies.infos[i].local_center));
+    let mut body = SceneBody::from(def);
+    if bits(center) != bits(found) {
+        body.center_at = Some(center);
+        body.def.position = Vec2::zeros();
+    }
+    body
+}
+
+fn bits(v: Vec2) -> [u64; 2] {
+    [v.x.to_bits(), v.y.to_bits()]
+}
+
+/// The name of a body if no other has it, else its place.
+fn label(world: &World, body: BodyHandle, path: &str) -> Result<BodyLabel> {
+    let bodies = world.bodies();
+    let index = bodies.index(body).map_err(|error| wrong(path, error))?;
+    let name = |i: usize| bodies.infos[i].def.name.as_ref();
+    Ok(match name(index) {
+        Some(own) if (0..bodies.len()).all(|i| i == index || name(i) != Some(own)) => {
+            BodyLabel::Name(own.clone())
+        }
+        _ => BodyLabel::Index(index),
+    })
+}
+
+fn schedule(world: &World, own: &Schedule) -> Result<SceneSchedule> {
+    let wrenches = own.forces.wrenches();
+    let finite = |time: &Real| time.is_finite().then_some(*time);
+    let mut schedule = SceneSchedule {
+        body: label(world, own.body, "schedules")?,
+        times: own.forces.times().iter().map(finite).collect(),
+        forces: wrenches.iter().map(|wrench| wrench.force).collect(),
+        torques: wrenches.iter().map(|wrench| wrench.torque).collect(),
+    };
+    if wrenches.iter().all(|wrench| bits(wrench.force) == [0, 0]) {
+        schedule.forces.clear();
+    }
+    if wrenches.iter().all(|wrench| wrench.torque.to_bits() == 0) {
+        schedule.torques.clear();
+    }
+    Ok(schedule)
+}
+
+fn field(world: &World, i: usize, own: &dyn ForceField) -> Result<SceneField> {
+    let path = format!("fields[{i}]");
+    match own.built_in() {
+        Some(BuiltInField::Central(own)) => Ok(SceneField::Central(own)),
+        Some(BuiltInField::Attraction(own)) => Ok(SceneField::Attraction(own)),
+        Some(BuiltInField::Oscillating(own)) => Ok(SceneField::Oscillating(SceneOscillating {
+            body: label(world, own.body, &path)?,
+            force: own.force,
+            torque: own.torque,
+            hertz: own.hertz,
+            phase: own.phase,
+        })),
+        None => {
+            let name = own.name();
+            let message = format!(
+                "the field {name:?} is code of your own; a file can hold central, attraction and \
+                 oscillating fields"
+            );
+            Err(wrong(path, message))
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Scene files as text.
+
+use schemars::Schema;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+use super::{SCENE_VERSION, SceneFile, SceneOscillating, wrong};
+use crate::body::BodyDef;
+use crate::error::Result;
+
+/// The schema, too, says which version there is.
+pub fn known_version(schema: &mut Schema) {
+    if let Some(version) = schema.pointer_mut("/properties/culbuto").and_then(Value::as_object_mut)
+    {
+        *version = Map::new();
+        version.insert("description".into(), "Version of the format.".into());
+        version.insert("const".into(), SCENE_VERSION.into());
+    }
+}
+
+/// What a file of any version has.
+#[derive(Deserialize)]
+struct Head {
+    culbuto: Option<Value>,
+}
+
+pub fn from_json(json: &str) -> Result<SceneFile> {
+    let head: Head = parse(json)?;
+    match head.culbuto {
+        Some(version) if version == Value::from(SCENE_VERSION) => parse(json),
+        Some(version) => {
+            Err(wrong("culbuto", format!("version {version} is not known; allowed: 1")))
+        }
+        None => Err(wrong(".", "no version; a scene file has \"culbuto\": 1")),
+    }
+}
+
+fn parse<'de, T: Deserialize<'de>>(json: &'de str) -> Result<T> {
+    let mut deserializer = serde_json::Deserializer::from_str(json);
+    let value = serde_path_to_error::deserialize(&mut deserializer)
+        .map_err(|error| wrong(error.path().to_string(), error.inner()))?;
+    deserializer.end().map_err(|error| wrong(".", error))?;
+    Ok(value)
+}
+
+pub fn to_json(scene: &SceneFile) -> String {
+    let mut file = object(scene);
+    let always = ["culbuto", "gravity", "run"];
+    leave_out(&mut file, &object(&SceneFile::default()), &always);
+    for key in ["air", "settings"] {
+        if let Some(Value::Object(own)) = file.get_mut(key) {
+            let usual = object(&SceneFile::default());
+            leave_out(own, usual[key].as_object().unwrap_or(&Map::new()), &[]);
+        }
+    }
+    let usual = object(&BodyDef::default());
+    for body in objects(&mut file, "bodies") {
+        leave_out(body, &usual, &[]);
+        if let Some(Value::Object(locks)) = body.get_mut("locks") {
+            locks.retain(|_, locked| *locked == Value::Bool(true));
+        }
+        objects(body, "shapes").for_each(leave_out_of_shape);
+    }
+    for schedule in objects(&mut file, "schedules") {
+        schedule.retain(|_, value| *value != Value::Array(Vec::new()));
+    }
+    let usual = object(&SceneOscillating::default());
+    for field in objects(&mut file, "fields") {
+        if let Some(Value::Object(own)) = field.get_mut("oscillating") {
+            leave_out(own, &usual, &["body", "hertz"]);
+        }
+    }
+    let mut text = String::new();
+    write(&Value::Object(file), 0, 0, &mut text);
+    text.push('\n');
+    text
+}
+
+/// What serde makes of a struct.
+fn object(value: &impl Serialize) -> Map<String, Value> {
+    // OK because all of these are structs whose keys are strings.
+    match serde_json::to_value(value) {
+        Ok(Value::Object(map)) => map,
+        _ => Map::new(),
+    }
+}
+
+/// The objects in a list of an object's.
+fn objects<'a>(
+    of: &'a mut Map<String, Value>,
+    key: &str,
+) -> impl Iterator<Item = &'a mut Map<String, Value>> {
+    let list = of.get_mut(key).and_then(Value::as_array_mut).map_or(&mut [][..], Vec::as_mut_slice);
+    list.iter_mut().filter_map(Value::as_object_mut)
+}
+
+/// Drops what is as usual. Text decides, which knows −0 from 0.
+fn leave_out(map: &mut Map<String, Value>, usual: &Map<String, Value>, always: &[&str]) {
+    map.retain(|key, value| {
+        let same = usual.get(key).is_some_and(|usual| spaced(usual) == spaced(value));
+        !same || always.contains(&key.as_str())
+    });
+}
+
+/// In a shape, no turn, no offset, no hole and no rounding are the defaults.
+fn leave_out_of_shape(part: &mut Map<String, Value>) {
+    let kinds = part.get_mut("shape").and_then(Value::as_object_mut);
+    for shape in kinds.into_iter().flat_map(Map::values_mut).filter_map(Value::as_object_mut) {
+        shape.retain(|key, value| {
+            let usual = match key.as_str() {
+                "center" => "[0.0, 0.0]",
+                "angle" | "radius" => "0.0",
+                "holes" => "[]",
+                _ => return true,
+            };
+            spaced(value) != usual
+        });
+    }
+}
+
+/// What fits into a line stands in a line; all else is broken up.
+fn write(value: &Value, indent: usize, column: usize, out: &mut String) {
+    const WIDTH: usize = 100;
+    let short = spaced(value);
+    let is_list_of_objects =
+        value.as_array().is_some_and(|list| list.first().is_some_and(Value::is_object));
+    let fits = column + short.chars().count() < WIDTH;
+    if indent > 0 && fits && !is_list_of_objects {
+        out.push_str(&short);
+        return;
+    }
+    let inner = "  ".repeat(indent + 1);
+    let mut line = |lead: &str, value: &Value, last: bool, out: &mut String| {
+        out.push_str(&inner);
+        out.push_str(lead);
+        write(value, indent + 1, inner.len() + lead.chars().count(), out);
+        out.push_str(if last { "\n" } else { ",\n" });
+    };
+    match value {
+        Value::Object(map) if !map.is_empty() => {
+            out.push_str("{\n");
+            for (i, (key, value)) in map.iter().enumerate() {
+                let lead = format!("{}: ", Value::from(key.as_str()));
+                line(&lead, value, i + 1 == map.len(), out);
+            }
+            out.push_str(&"  ".repeat(indent));
+            out.push('}');
+        }
+        Value::Array(list) if !list.is_empty() => {
+            out.push_str("[\n");
+            for (i, value) in list.iter().enumerate() {
+                line("", value, i + 1 == list.len(), out);
+            }
+            out.push_str(&"  ".repeat(indent));
+            out.push(']');
+        }
+        _ => out.push_str(&short),
+    }
+}
+
+/// A value in one line, with a space after commas and colons.
+fn spaced(value: &Value) -> String {
+    match value {
+        Value::Array(list) => {
+            let parts: Vec<_> = list.iter().map(spaced).collect();
+            format!("[{}]", parts.join(", "))
+        }
+        Value::Object(map) => {
+            let pair = |(key, value): (&String, &Value)| {
+                format!("{}: {}", Value::from(key.as_str()), spaced(value))
+            };
+            let parts: Vec<_> = map.iter().map(pair).collect();
+            format!("{{{}}}", parts.join(", "))
+        }
+        _ => value.to_string(),
+    }
+}
