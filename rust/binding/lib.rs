@@ -5,6 +5,7 @@
 
 use pyo3::prelude::*;
 
+pub mod catalogue;
 pub mod convert;
 pub mod error;
 pub mod vec2;
@@ -13,6 +14,11 @@ pub mod vec2;
 #[pymodule]
 #[pyo3(name = "_native")]
 mod culbuto_native {
+    #[pymodule_export]
+    use crate::catalogue::{
+        catalogue, exact_motion, measured_order, method_facts, scene_error, study, thrown_ball,
+        verify,
+    };
     #[pymodule_export]
     use crate::error::{SceneFileError, SimulationError, StaleHandleError};
     #[pymodule_export]
