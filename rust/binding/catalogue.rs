@@ -1,9 +1,9 @@
 //! The catalogue of scenes, and the report's measurements. They reach Python as JSON, which
 //! `culbuto.catalogue` and `culbuto.study` read into classes.
 
-use culbuto::methods::{self, REGISTRY};
-use culbuto::report::{self, Order, Study};
-use culbuto::scenes::{Answer, CATALOGUE, Motion, Scene, scene};
+use culbuto::methods;
+use culbuto::report::{self, Limits, Order, Study};
+use culbuto::scenes::{Answer, CATALOGUE, Motion, Scene, SceneFile, scene};
 use culbuto::world::Trajectory;
 use culbuto::{error::Result, math};
 use numpy::{
@@ -13,6 +13,7 @@ use pyo3::prelude::*;
 use serde_json::{Value, json};
 
 use crate::error::to_py;
+use crate::world::World;
 
 /// Works with the interpreter released, and writes what came of it as JSON.
 fn json_of(py: Python<'_>, work: impl FnOnce() -> Result<Value> + Send) -> PyResult<String> {
@@ -54,12 +55,6 @@ fn describe(scene: &&Scene) -> Value {
 #[pyfunction]
 pub fn catalogue() -> String {
     CATALOGUE.iter().map(describe).collect::<Value>().to_string()
-}
-
-/// Every method, the default first, with the facts it states.
-#[pyfunction]
-pub fn method_facts() -> String {
-    REGISTRY.iter().map(|method| json!(method.facts())).collect::<Value>().to_string()
 }
 
 /// A scene against its answer.
@@ -148,4 +143,44 @@ pub fn scene_error(
         twists: Vec::new(),
     };
     Ok(motion.error(&world, &recorded))
+}
+
+/// The world of a scene of the catalogue.
+#[pyfunction]
+pub fn open_scene<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, World>> {
+    let motion = motion_of(name)?;
+    World::adopt(py, (motion.build)().map_err(to_py)?)
+}
+
+/// The world of a scene file, and what the file says of itself: name, about, dt and duration of its run.
+#[pyfunction]
+pub fn read_scene<'py>(py: Python<'py>, path: &str) -> PyResult<(Bound<'py, World>, String)> {
+    let (file, core) = py
+        .detach(|| {
+            let file = SceneFile::read(path)?;
+            let core = file.world()?;
+            Ok((file, core))
+        })
+        .map_err(to_py)?;
+    let (dt, duration) = (file.run.dt, file.run.duration);
+    let said = json!({ "name": file.name, "about": file.about, "dt": dt, "duration": duration });
+    Ok((World::adopt(py, core)?, said.to_string()))
+}
+
+/// The conservation laws on a run of a copy of a world. Limits: energy, momentum, angular momentum,
+/// third law.
+#[pyfunction]
+pub fn verify_laws(
+    world: &Bound<'_, World>,
+    method: &str,
+    dt: f64,
+    duration: f64,
+    limits: [f64; 4],
+) -> PyResult<String> {
+    let [energy, momentum, angular_momentum, third_law] = limits;
+    let limits = Limits { energy, momentum, angular_momentum, third_law };
+    let facts = methods::method(method).map_err(to_py)?.facts();
+    world.get().work(world.py(), |core| {
+        Ok(json!(report::verify_laws(core, facts, (dt, duration), limits)?).to_string())
+    })
 }

@@ -5,24 +5,61 @@
 
 use pyo3::prelude::*;
 
+pub mod add_body;
+pub mod adopt;
+pub mod arrays;
+pub mod body;
 pub mod catalogue;
 pub mod convert;
 pub mod error;
+pub mod field;
+pub mod law;
+pub mod observe;
+pub mod parts;
+pub mod record;
+pub mod schedule;
+pub mod shape;
+pub mod shapes;
+pub mod stepper;
+pub mod stepping;
 pub mod vec2;
+pub mod world;
 
 /// The engine of the culbuto package. Import `culbuto` instead.
 #[pymodule]
 #[pyo3(name = "_native")]
 mod culbuto_native {
     #[pymodule_export]
+    use crate::body::Body;
+    #[pymodule_export]
     use crate::catalogue::{
-        catalogue, exact_motion, measured_order, method_facts, scene_error, study, thrown_ball,
-        verify,
+        catalogue, exact_motion, measured_order, open_scene, read_scene, scene_error, study,
+        thrown_ball, verify, verify_laws,
     };
     #[pymodule_export]
     use crate::error::{SceneFileError, SimulationError, StaleHandleError};
     #[pymodule_export]
+    use crate::field::{Attraction, Central, Field, Oscillating};
+    #[pymodule_export]
+    use crate::law::State;
+    #[pymodule_export]
+    use crate::observe::{Energy, Facts, methods};
+    #[pymodule_export]
+    use crate::schedule::Schedule;
+    #[pymodule_export]
+    use crate::shape::{MassProperties, Shape};
+    #[pymodule_export]
+    use crate::shapes::{
+        Arc, Capsule, Circle, Polygon, Rectangle, RegularPolygon, RoundedPolygon, Segment,
+    };
+    #[pymodule_export]
+    use crate::stepper::{Frame, Stepper};
+    #[pymodule_export]
+    use crate::stepping::{StepReport, Trajectory};
+    #[pymodule_export]
     use crate::vec2::Vec2;
+    #[pymodule_export]
+    use crate::world::World;
 
     #[allow(non_upper_case_globals, reason = "the name Python gives to it")]
     #[pymodule_export]

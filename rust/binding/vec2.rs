@@ -13,7 +13,7 @@ use crate::convert::{Operand, Vec2Arg};
 /// Wherever culbuto wants a vector, a tuple of two numbers does as well; what it gives back is a
 /// `Vec2`, which unpacks like a tuple, equals the tuple of its components and hashes like it.
 #[pyclass(frozen, module = "culbuto")]
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vec2(pub math::Vec2);
 
 #[pymethods]
@@ -162,6 +162,15 @@ impl Vec2 {
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         Ok((slf.get_type().into_any(), slf.get().tuple(slf.py())?))
+    }
+}
+
+/// As a field of a plain record, whose constructor takes what every vector argument does.
+impl<'py> FromPyObject<'_, 'py> for Vec2 {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Vec2Arg::extract(object).map(|v| Self(v.0))
     }
 }
 

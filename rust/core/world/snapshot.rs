@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::body::BodyHandle;
 use crate::error::{Error, Result};
-use crate::forces::{BuiltInField, ForceField};
+use crate::forces::{BuiltInField, FieldHandle, ForceField, Schedule, ScheduleHandle};
+use crate::math::Real;
 use crate::methods;
 use crate::world::{State, World};
 
@@ -41,6 +43,42 @@ impl World {
 }
 
 impl Snapshot {
+    /// Handles of its bodies, in body order.
+    #[must_use]
+    pub fn bodies(&self) -> &[BodyHandle] {
+        self.state.bodies.handles()
+    }
+
+    /// Handles of its fields, in the order of [`Snapshot::fields`].
+    #[must_use]
+    pub fn field_handles(&self) -> &[FieldHandle] {
+        self.state.field_map.handles()
+    }
+
+    /// Its fields.
+    #[must_use]
+    pub fn fields(&self) -> &[Arc<dyn ForceField>] {
+        &self.fields
+    }
+
+    /// Handles of its schedules, in the order of [`Snapshot::schedules`].
+    #[must_use]
+    pub fn schedule_handles(&self) -> &[ScheduleHandle] {
+        self.state.schedules.handles()
+    }
+
+    /// Its schedules.
+    #[must_use]
+    pub fn schedules(&self) -> &[Schedule] {
+        self.state.schedules.values()
+    }
+
+    /// World time (s).
+    #[must_use]
+    pub fn time(&self) -> Real {
+        self.state.clock.now
+    }
+
     /// A world that continues from here.
     #[must_use]
     pub fn to_world(&self) -> World {
