@@ -49,6 +49,8 @@ from culbuto._native import (
     __version__,
     methods,
 )
+from culbuto.catalogue import Laws, Limits, Scene, Verdict, scene, scenes, verify, verify_laws
+from culbuto.study import Row, Study, study
 
 __all__ = [
     "Arc",
@@ -62,11 +64,15 @@ __all__ = [
     "Facts",
     "Field",
     "Frame",
+    "Laws",
+    "Limits",
     "MassProperties",
     "Oscillating",
     "Polygon",
     "RegularPolygon",
     "RoundedPolygon",
+    "Row",
+    "Scene",
     "SceneFileError",
     "Schedule",
     "Segment",
@@ -76,9 +82,16 @@ __all__ = [
     "State",
     "StepReport",
     "Stepper",
+    "Study",
     "Trajectory",
     "Vec2",
+    "Verdict",
     "World",
     "__version__",
     "methods",
+    "scene",
+    "scenes",
+    "study",
+    "verify",
+    "verify_laws",
 ]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from culbuto import _native
+from culbuto._native import World
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,10 @@ class Scene:
     def has_motion(self) -> bool:
         """Whether the answer is a motion, so that it can be run."""
         return self.duration is not None
+
+    def world(self) -> World:
+        """A new world of the scene."""
+        return _native.open_scene(self.name)
 
 
 @dataclass(frozen=True)
@@ -77,15 +82,6 @@ class Verdict:
     passed: bool
 
 
-@dataclass(frozen=True)
-class Method:
-    """What holds of a way through time."""
-
-    name: str
-    order: int
-    about: str
-
-
 def or_infinite(number: float | None) -> float:
     """JSON has no infinity: there, a number that is not finite is null."""
     return math.inf if number is None else number
@@ -117,12 +113,6 @@ def find(name: str) -> Scene:
     raise ValueError(message)
 
 
-def methods() -> list[Method]:
-    """Every method that steps, the default first."""
-    facts = json.loads(_native.method_facts())
-    return [Method(fact["name"], fact["order"], fact["about"]) for fact in facts]
-
-
 def verify(name: str) -> Verdict:
     """Runs a scene of the catalogue against its answer, by the engine as it comes and by every method.
 
@@ -150,3 +140,96 @@ def verify(name: str) -> Verdict:
     return Verdict(
         found["id"], found["name"], found["title"], tuple(checks), tuple(rows), found["pass"]
     )
+
+
+def scene(name: str) -> World:
+    """A new world of a scene of the catalogue, by its id or name.
+
+    >>> import culbuto as cb
+    >>> world = cb.scene("S1")
+    >>> world.step(1 / 60, steps=120)
+    >>> world.bodies[0].position
+    Vec2(24.0, -0.12)
+    """
+    return _native.open_scene(name)
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Deviations that are allowed, relative: see `verify_laws`."""
+
+    energy: float = 1e-3
+    momentum: float = 1e-9
+    angular_momentum: float = 1e-9
+    third_law: float = 1e-12
+
+    def __post_init__(self) -> None:
+        """Refuses what is no limit."""
+        for name, limit in vars(self).items():
+            if not 0 <= limit < math.inf:
+                message = f"limit of {name} is {limit}; allowed: a finite number, 0 or above"
+                raise ValueError(message)
+
+
+@dataclass(frozen=True)
+class Law:
+    """A law and how well it was kept: the largest relative deviation, None where it does not apply.
+
+    `why` says what was measured, or why the law does not apply.
+    """
+
+    name: str
+    measured: float | None
+    allowed: float
+    why: str
+
+    @property
+    def passed(self) -> bool:
+        """Whether the law was kept, or does not apply."""
+        return self.measured is None or self.measured <= self.allowed
+
+
+@dataclass(frozen=True)
+class Laws:
+    """The laws of one run."""
+
+    method: str
+    laws: tuple[Law, ...]
+    passed: bool
+
+
+def verify_laws(
+    world: World,
+    *,
+    method: str | None = None,
+    dt: float = 1 / 60,
+    duration: float = 1.0,
+    limits: Limits | None = None,
+) -> Laws:
+    """Measures the conservation laws on any world: energy, momentum, angular momentum, third law.
+
+    A copy of the world is run; the world itself stays as it is. A law that outside forces suspend is
+    reported as one that does not apply.
+
+    Args:
+        world: The world.
+        method: By which it is run; the world's own by default.
+        dt: Fixed step (s).
+        duration: World time (s).
+        limits: Deviations that are allowed, relative.
+    """
+    asked = limits or Limits()
+    numbers = [asked.energy, asked.momentum, asked.angular_momentum, asked.third_law]
+    for name, number in (("dt", dt), ("duration", duration)):
+        if not 0 < number < math.inf:
+            message = f"{name} is {number}; allowed: a finite number above 0"
+            raise ValueError(message)
+    found = json.loads(_native.verify_laws(world, method or world.method, dt, duration, numbers))
+    laws = tuple(
+        Law(law["name"], _measured(law), law["allowed"], law["why"]) for law in found["laws"]
+    )
+    return Laws(found["method"], laws, found["pass"])
+
+
+def _measured(law: dict[str, Any]) -> float | None:
+    return or_infinite(law["measured"]) if law["applies"] else None

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from culbuto import _native
-from culbuto.catalogue import Scene, find, methods, or_infinite
+from culbuto.catalogue import Scene, find, or_infinite
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -104,7 +104,7 @@ class Study:
         """Stated and measured order of each method, from runs of its own at finer and finer steps."""
         return {
             method.name: _order(self.scene.name, method.name, method.order)
-            for method in methods()
+            for method in _native.methods()
             if method.name in self.methods
         }
 

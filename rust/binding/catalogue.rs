@@ -2,7 +2,7 @@
 //! `culbuto.catalogue` and `culbuto.study` read into classes.
 
 use culbuto::methods;
-use culbuto::report::{self, Limits, Order, Study};
+use culbuto::report::{self, Law, Limits, Order, Study};
 use culbuto::scenes::{Answer, CATALOGUE, Motion, Scene, SceneFile, scene};
 use culbuto::world::Trajectory;
 use culbuto::{error::Result, math};
@@ -181,6 +181,19 @@ pub fn verify_laws(
     let limits = Limits { energy, momentum, angular_momentum, third_law };
     let facts = methods::method(method).map_err(to_py)?.facts();
     world.get().work(world.py(), |core| {
-        Ok(json!(report::verify_laws(core, facts, (dt, duration), limits)?).to_string())
+        let found = report::verify_laws(core, facts, (dt, duration), limits)?;
+        let laws: Value = found.laws.iter().map(law).collect();
+        Ok(json!({ "method": found.method, "laws": laws, "pass": found.pass }).to_string())
+    })
+}
+
+/// A law. JSON has no infinity, so whether the law applies stands by itself.
+fn law(law: &Law) -> Value {
+    json!({
+        "name": law.name,
+        "applies": law.measured.is_some(),
+        "measured": law.measured,
+        "allowed": law.allowed,
+        "why": law.why,
     })
 }
