@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from culbuto import _native
+from culbuto._json import or_infinite
 from culbuto._native import World
 
 
@@ -80,11 +81,6 @@ class Verdict:
     checks: tuple[Check, ...]
     methods: tuple[MethodCheck, ...]
     passed: bool
-
-
-def or_infinite(number: float | None) -> float:
-    """JSON has no infinity: there, a number that is not finite is null."""
-    return math.inf if number is None else number
 
 
 def scenes() -> list[Scene]:

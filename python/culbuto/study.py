@@ -9,7 +9,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from culbuto import _native
-from culbuto.catalogue import Scene, find, or_infinite
+from culbuto._json import or_infinite
+from culbuto.catalogue import Scene, find
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

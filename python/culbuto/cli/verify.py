@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import math
 import sys
 from dataclasses import asdict, fields
 from typing import Any
@@ -11,6 +9,7 @@ from typing import Any
 import click
 
 from culbuto import catalogue
+from culbuto._json import dumps
 from culbuto.catalogue import Laws, Limits, MethodCheck, Verdict
 from culbuto.cli.output import console, number, passed, progress, table
 from culbuto.cli.source import is_file, open_source
@@ -56,7 +55,7 @@ def _verify_answers(names: tuple[str, ...], options: Json, *, as_json: bool) -> 
         for scene in bar.track(chosen, description="verifying"):
             verdicts.append(catalogue.verify(scene.name))
     if as_json:
-        _print_json([asdict(verdict) for verdict in verdicts])
+        click.echo(dumps([asdict(verdict) for verdict in verdicts]))
     else:
         for verdict in verdicts:
             _print_verdict(verdict)
@@ -99,7 +98,7 @@ def _verify_laws(names: tuple[str, ...], options: Json, *, as_json: bool) -> boo
     })  # fmt: skip
     found = [(name, laws) for name in names for laws in _laws_of(name, options, limits)]
     if as_json:
-        _print_json([{"scene": name, **asdict(laws)} for name, laws in found])
+        click.echo(dumps([{"scene": name, **asdict(laws)} for name, laws in found]))
     else:
         for name, laws in found:
             _print_laws(name, laws)
@@ -134,16 +133,3 @@ def _print_sum(results: list[bool]) -> None:
     failed = results.count(False)
     what = "[green]all pass[/]" if not failed else f"[bold red]{failed} of {len(results)} fail[/]"
     console().print(what)
-
-
-def _print_json(data: list[Json]) -> None:
-    click.echo(json.dumps(_finite(data), indent=2, ensure_ascii=False))
-
-
-def _finite(data: Any) -> Any:
-    """The same data with null for numbers that JSON does not have."""
-    if isinstance(data, dict):
-        return {key: _finite(value) for key, value in data.items()}
-    if isinstance(data, list | tuple):
-        return [_finite(value) for value in data]
-    return None if isinstance(data, float) and not math.isfinite(data) else data
