@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 LEAST = 1e-17  # what is exact to the last bit is drawn there
 MOST = 10.0  # beyond, nothing is drawn
 ROUNDING = 1e-15
+SMALL = 8  # points
+RAISED = str.maketrans("123456789", "¹²³⁴⁵⁶⁷⁸⁹")
 UNKNOWN = Look("", MUTED.light, MUTED.dark, ".", "")
 TIME = "wall time per simulated second (s)"
 ERROR = "error, relative"
@@ -43,8 +45,8 @@ def _log_axes(ax: Axes) -> None:
     ax.yaxis.set_major_locator(LogLocator(numticks=20, base=1000.0))
     ax.axhspan(LEAST / 3, ROUNDING, color=LINE.light, alpha=0.45, linewidth=0)
     ax.text(
-        0.995, ROUNDING / 1.6, "rounding", transform=ax.get_yaxis_transform(), ha="right",
-        va="top", color=MUTED.light, fontsize=7.5,
+        0.995, LEAST / 2, "rounding", transform=ax.get_yaxis_transform(), ha="right", va="bottom",
+        color=MUTED.light, fontsize=SMALL,
     )  # fmt: skip
 
 
@@ -76,7 +78,7 @@ def plot_study(study: Study, ax: Axes | None = None) -> Axes:
         with mpl.rc_context(RC):
             ax = Figure(figsize=(6.4, 4.4), layout="constrained").add_subplot()
     plot_time(study, ax)
-    ax.legend(fontsize=7.5, loc="upper left", bbox_to_anchor=(1, 1))
+    ax.legend(fontsize=SMALL, loc="upper left", bbox_to_anchor=(1, 1))
     ax.set_title(study.scene.title)
     return ax
 
@@ -112,11 +114,11 @@ def _slopes(ax: Axes, low: float, high: float, orders: Sequence[int]) -> None:
         reach = max(low / 1.6, high * (ROUNDING / MOST) ** (1 / order))
         end = MOST * (reach / high) ** order
         ax.plot([high, reach], [MOST, end], color=MUTED.light, linewidth=0.7, linestyle=":", zorder=1)
-        power = "h" if order == 1 else f"h{str(order).translate(str.maketrans('123456789', '¹²³⁴⁵⁶⁷⁸⁹'))}"
+        power = "h" if order == 1 else "h" + str(order).translate(RAISED)
         at_edge = reach <= low / 1.5
         ax.annotate(
             power, (reach, end), xytext=(3, 3) if at_edge else (2, 3), textcoords="offset points",
-            color=MUTED.light, fontsize=7.5, ha="left", va="bottom",
+            color=MUTED.light, fontsize=SMALL, ha="left", va="bottom",
         )  # fmt: skip
 
 
@@ -167,24 +169,23 @@ def _plot_throw(paths: list[Path], ax: Axes) -> None:
             *np.array(path.points).T, color=look.light, alpha=strength, linewidth=1.1,
             marker=look.marker if few else None, markersize=3.6, markeredgewidth=0,
         )  # fmt: skip
-    ends: dict[float, list[str]] = {}
-    for path in paths:
-        ends.setdefault(round(path.points[-1][1], 3), []).append(str(path.ticks_per_second))
-    _label_ends(ax, {y: ", ".join(ticks) for y, ticks in ends.items()})
-    ax.set(xlim=(0, 29.5), ylim=(-2.7, 8.4), xlabel="x (m)", ylabel="y (m)")
+    _label_ends(ax, paths)
+    ax.set(xlim=(0, 31), ylim=(-2.7, 8.4), xlabel="x (m)", ylabel="y (m)")
     default = _native.methods()[0].name
     ax.set_title(look.label + (", the default method" if paths[0].method == default else ""))
-    ax.text(0.03, 0.06, "dashed: exact", transform=ax.transAxes, fontsize=7.5, color=MUTED.light)
+    ax.text(0.03, 0.06, "dashed: exact", transform=ax.transAxes, fontsize=SMALL, color=MUTED.light)
 
 
-def _label_ends(ax: Axes, ends: dict[float, str]) -> None:
+def _label_ends(ax: Axes, paths: list[Path]) -> None:
     """Ticks a second at the ends of the paths, moved apart where they would overlap."""
-    apart, last = 0.72, -math.inf
+    ends = {path.points[-1][1]: str(path.ticks_per_second) for path in paths}
+    if max(ends) - min(ends) < 1e-6:
+        ends = {max(ends): f"{paths[0].ticks_per_second} to {paths[-1].ticks_per_second}"}
+    apart, last = 0.76, -math.inf
     for i, y in enumerate(sorted(ends)):
-        place = max(y, last + apart)
+        last = max(y, last + apart)
         unit = " ticks/s" if i == len(ends) - 1 else ""
-        ax.text(24.6, place, ends[y] + unit, va="center", fontsize=7.5, color=MUTED.light)
-        last = place
+        ax.text(24.6, last, ends[y] + unit, va="center", fontsize=SMALL, color=MUTED.light)
 
 
 def _plot_throw_errors(throw: Study, ax: Axes) -> None:
@@ -207,6 +208,6 @@ def _plot_throw_errors(throw: Study, ax: Axes) -> None:
 def _note(ax: Axes, row: Row, text: str, offset: tuple[float, float], ha: str = "left") -> None:
     ax.annotate(
         text, (row.seconds_per_second, _drawn(row.error)), xytext=offset,
-        textcoords="offset points", fontsize=7.5, color=MUTED.light, ha=ha, va="bottom",
+        textcoords="offset points", fontsize=SMALL, color=MUTED.light, ha=ha, va="bottom",
         linespacing=1.15,
     )  # fmt: skip

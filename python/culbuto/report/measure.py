@@ -19,6 +19,7 @@ THROWN = "projectile"
 THROW_METHODS = ("explicit_euler", "semi_implicit_euler", "leapfrog")
 TICKS = (5, 10, 20, 60)
 FINER_TICKS = (240, 1000, 4000, 16000)
+REPEATS = 9  # timed runs of a row, of which the median counts
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,7 @@ class Results:
     scenes: tuple[SceneResult, ...]
     throw: Study
     machine: str
+    repeats: int
 
     @property
     def rows(self) -> list[Row]:
@@ -59,14 +61,14 @@ def measure(
         steps=[1 / tick for tick in ticks],
         tolerances=[],
         methods=THROW_METHODS,
-        repeats=1 if quick else 15,
+        repeats=1 if quick else REPEATS,
     )
-    return Results(tuple(results), throw, machine())
+    return Results(tuple(results), throw, machine(), 1 if quick else REPEATS)
 
 
 def _study(scene: Scene, *, quick: bool) -> Study:
     if not quick:
-        return study(scene.name)
+        return study(scene.name, repeats=REPEATS)
     steps = [(scene.duration or 1.0) / 2**k for k in range(4, 9)]
     return study(scene.name, steps=steps, tolerances=[1e-4, 1e-8], repeats=1)
 
@@ -99,6 +101,6 @@ def write_rows(results: Results, folder: Path) -> list[Path]:
         lines = csv.DictWriter(file, [field.name for field in fields(Row)])
         lines.writeheader()
         lines.writerows(asdict(row) for row in results.rows)
-    said = {"versions": versions(), "machine": results.machine}
+    said = {"versions": versions(), "machine": results.machine, "repeats": results.repeats}
     data.write_text(dumps({**said, "rows": [asdict(row) for row in results.rows]}), "utf-8")
     return [table, data]

@@ -109,13 +109,8 @@ def inline(figure: Figure, name: str, title: str) -> str:
     text = re.sub(r' xmlns(:xlink)?="[^"]*"| version="1.1"', "", text)
     text = re.sub(r'<g id="[^"]*"', "<g", text)
     text = re.sub(r'(\bid="|url\(#|xlink:href="#)', rf"\g<1>{name}-", text).replace("xlink:", "")
-    text = re.sub(r'(<svg[^>]*?) width="[^"]*pt" height="[^"]*pt"|(<svg[^>]*)', _first, text, count=1)
+    text = re.sub(r' (width|height)="[^"]*pt"', "", text)
     return text.replace("<svg", f'<svg role="img" aria-label="{title}"', 1)
-
-
-def _first(match: re.Match[str]) -> str:
-    whole = match[0]
-    return re.sub(r' (width|height)="[^"]*pt"', "", whole)
 
 
 def standalone(figure: Figure, title: str) -> str:
@@ -136,6 +131,7 @@ def _svg(figure: Figure) -> str:
     with rc_context(RC):
         figure.savefig(out, format="svg", metadata=nothing)
     text = out.getvalue()
+    text = re.sub(r"(\d\.\d\d)\d+", r"\1", text)  # hundredths of a point do
     for name, look in {**METHODS, **OTHERS}.items():
         text = text.replace(look.light, f"var({css_name(name)})")
     text = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font: \1px system-ui, sans-serif", text)
