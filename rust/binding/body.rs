@@ -10,7 +10,7 @@ use pyo3::types::PyTuple;
 
 use crate::convert::Vec2Arg;
 use crate::error::to_py;
-use crate::parts::Place;
+use crate::parts::{Place, Reduced, reduced};
 use crate::shape::parts;
 use crate::shapes::to_python;
 use crate::vec2::Vec2;
@@ -500,7 +500,11 @@ impl Body {
         seen.unwrap_or_else(|_| "<Body of a world at work>".to_owned())
     }
 
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, "body", &slf.get().place)
+    }
+
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        visit.call(&self.place.world)
+        self.place.traverse(&visit)
     }
 }

@@ -1,5 +1,7 @@
 //! Force fields: the user's own functions, and those that come with the engine.
 
+use std::sync::OnceLock;
+
 use culbuto::World as Core;
 use culbuto::forces::{self, BuiltInField, Field as Kind};
 use culbuto::math::{Real, vec2};
@@ -10,7 +12,7 @@ use pyo3::prelude::*;
 use crate::body::Body;
 use crate::error::to_py;
 use crate::law::Law;
-use crate::parts::Place;
+use crate::parts::{Place, Reduced, reduced};
 use crate::record::record;
 use crate::vec2::Vec2;
 use crate::world::World;
@@ -103,10 +105,31 @@ type Arguments = (Py<Body>, Vec2, Real, Real, Real);
 pub struct Field {
     pub place: Place<Kind>,
     /// The user's own code; none for a field that comes with the engine.
-    pub law: Option<Py<Law>>,
+    law: OnceLock<Py<Law>>,
 }
 
 impl Field {
+    /// A field that is yet to be given its place.
+    pub fn new(world: &Bound<'_, World>, law: Option<Py<Law>>) -> Self {
+        let field = Self { place: Place::new(world), law: OnceLock::new() };
+        field.adopt(law);
+        field
+    }
+
+    /// Gives a law to a field that has none yet.
+    pub fn adopt(&self, law: Option<Py<Law>>) {
+        if let Some(law) = law {
+            // A field that has a law keeps it: they are the same.
+            let _ = self.law.set(law);
+        }
+    }
+
+    /// The user's own code; none for a field that comes with the engine.
+    pub fn law(&self) -> Option<&Py<Law>> {
+        self.law.get()
+    }
+
+    /// Removes the field; its object stays, and says that it was removed.
     pub fn remove_from(&self, world: &Bound<'_, World>) -> PyResult<()> {
         self.place.check_world(world)?;
         let own = world.get();
@@ -152,7 +175,7 @@ impl Field {
     /// The user's function, or the `Central`, `Attraction` or `Oscillating` it is.
     #[getter]
     fn function<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        if let Some(law) = &self.law {
+        if let Some(law) = self.law() {
             return Ok(law.get().function.bind(py).clone());
         }
         let found = {
@@ -175,7 +198,7 @@ impl Field {
     /// The user's potential; None for fields without, and for those that come with the engine.
     #[getter]
     fn potential<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyAny>> {
-        let potential = self.law.as_ref()?.get().potential.as_ref()?;
+        let potential = self.law()?.get().potential.as_ref()?;
         Some(potential.bind(py).clone())
     }
 
@@ -224,9 +247,13 @@ impl Field {
         )
     }
 
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, "field", &slf.get().place)
+    }
+
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        visit.call(&self.law)?;
-        visit.call(&self.place.world)
+        self.place.traverse(&visit)?;
+        if self.place.made.yes() { visit.call(self.law()) } else { Ok(()) }
     }
 }
 
@@ -317,7 +344,7 @@ impl World {
                 "a field that comes with the engine knows its potential and its facts itself",
             ));
         }
-        let field = Bound::new(py, Field { place: Place::new(slf), law })?;
+        let field = Bound::new(py, Field::new(slf, law))?;
         let world = slf.get();
         let mut core = world.core(py)?;
         let handle = Core::add_shared_field(&mut core, shared);

@@ -20,6 +20,7 @@ pub mod record;
 pub mod schedule;
 pub mod shape;
 pub mod shapes;
+pub mod snapshot;
 pub mod stepper;
 pub mod stepping;
 pub mod vec2;
@@ -52,6 +53,8 @@ mod culbuto_native {
     use crate::shapes::{
         Arc, Capsule, Circle, Polygon, Rectangle, RegularPolygon, RoundedPolygon, Segment,
     };
+    #[pymodule_export]
+    use crate::snapshot::Snapshot;
     #[pymodule_export]
     use crate::stepper::{Frame, Stepper};
     #[pymodule_export]

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use crate::body::Body;
 use crate::convert;
 use crate::error::to_py;
-use crate::parts::Place;
+use crate::parts::{Place, Reduced, reduced};
 use crate::shape::rows;
 use crate::world::{Objects, World};
 
@@ -120,8 +120,12 @@ impl Schedule {
         seen.unwrap_or_else(|_| "<Schedule of a world at work>".to_owned())
     }
 
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, "schedule", &slf.get().place)
+    }
+
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        visit.call(&self.place.world)
+        self.place.traverse(&visit)
     }
 }
 

@@ -15,6 +15,7 @@ use crate::body::Body;
 use crate::convert::{Vec2Arg, count};
 use crate::error::to_py;
 use crate::field::Field;
+use crate::parts::Made;
 use crate::schedule::Schedule;
 use crate::vec2::Vec2;
 
@@ -28,6 +29,7 @@ use crate::vec2::Vec2;
 /// world is told so instead of waiting for itself.
 #[pyclass(frozen, dict, weakref, module = "culbuto")]
 pub struct World {
+    made: Made,
     core: Mutex<Core>,
     /// Never held while the thread is detached from the interpreter or makes a Python object, so that the
     /// garbage collector always finds it open.
@@ -56,7 +58,12 @@ fn this_thread() -> usize {
 /// Reaching what is inside.
 impl World {
     pub fn from_core(core: Core) -> Self {
-        Self { core: Mutex::new(core), objects: Mutex::default(), worker: AtomicUsize::new(0) }
+        Self {
+            made: Made::new(),
+            core: Mutex::new(core),
+            objects: Mutex::default(),
+            worker: AtomicUsize::new(0),
+        }
     }
 
     /// The core's world, for a moment. No Python object may be made or dropped while it is held.
@@ -330,6 +337,9 @@ impl World {
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        if !self.made.yes() {
+            return Ok(());
+        }
         let Ok(objects) = self.objects.try_lock() else { return Ok(()) };
         objects.bodies.iter().try_for_each(|body| visit.call(body))?;
         objects.fields.iter().try_for_each(|field| visit.call(field))?;

@@ -83,7 +83,7 @@ fn no_silhouette() -> Silhouette {
 /// All bodies, in columns of equal length, in "body order".
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub struct Bodies {
-    map: HandleMap<Body>,
+    pub(crate) map: HandleMap<Body>,
     /// Pose: position of the centre of mass, angle of the body's frame.
     pub poses: Vec<Pose>,
     /// Velocity of the centre of mass, angular velocity.
@@ -121,13 +121,6 @@ impl Bodies {
     #[must_use]
     pub fn map(&self) -> &HandleMap<Body> {
         &self.map
-    }
-
-    /// The columns that methods work on: poses and twists to move, the rest to read.
-    pub(crate) fn for_methods(
-        &mut self,
-    ) -> (&HandleMap<Body>, &mut [Pose], &mut [Twist], &[Mass], &[Info]) {
-        (&self.map, &mut self.poses, &mut self.twists, &self.masses, &self.infos)
     }
 
     /// Place of a body in the columns, or an error if it is gone.

@@ -54,7 +54,7 @@ pub struct Part {
     /// The shape, in the body's frame.
     pub shape: Shape,
     /// Density (kg/m², or kg/m of a wire); none: the body's.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub density: Option<Real>,
 }
 
@@ -75,7 +75,6 @@ impl From<Shape> for Part {
 #[serde(default, deny_unknown_fields)]
 pub struct BodyDef {
     /// A name to find the body by; need not be unique.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Static, kinematic or dynamic.
     pub kind: BodyKind,
@@ -94,14 +93,11 @@ pub struct BodyDef {
     /// Density of shapes that have none of their own (kg/m²; kg/m of a wire).
     pub density: Real,
     /// Mass (kg) instead of the one that follows from the densities.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass: Option<Real>,
     /// Moment of inertia about the centre of mass (kg·m²) instead of the one that follows from
     /// shapes and mass. A point that is given none does not rotate.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia: Option<Real>,
     /// Centre of mass in the body's frame (m) instead of the shapes'.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Option<[Real; 2]>")]
     pub center_of_mass: Option<Vec2>,
     /// Locked axes.

@@ -63,6 +63,9 @@ fn stages(y: &mut Columns, forces: &mut Forces<'_>, time: Real, h: Real) -> Resu
     Ok(())
 }
 
+/// Takes samples of a run: the number of the sample, and the state of the run's bodies there.
+pub type Sink<'a> = dyn FnMut(usize, &[Pose], &[Twist]) + 'a;
+
 /// What a run to a tolerance is asked for.
 pub struct Control<'a> {
     /// Largest local error of a step, relative to the body's size or the way it went (positions), a
@@ -133,7 +136,7 @@ impl<'a> Adaptive<'a> {
         forces: &mut Forces<'_>,
         motion: &mut Motion<'_>,
         scratch: &mut Scratch,
-        sink: &mut dyn FnMut(usize, &[Pose], &[Twist]),
+        sink: &mut Sink<'_>,
     ) -> Result<Progress> {
         let y = &mut scratch.flat;
         y.load(motion, DENSE_STAGES);
@@ -234,7 +237,7 @@ impl<'a> Adaptive<'a> {
         y: &mut Columns,
         forces: &mut Forces<'_>,
         (passed, h, last): (Real, Real, bool),
-        sink: &mut dyn FnMut(usize, &[Pose], &[Twist]),
+        sink: &mut Sink<'_>,
     ) -> Result<()> {
         let until = if last { Real::INFINITY } else { passed + h };
         let mut dense: Option<Dense> = None;

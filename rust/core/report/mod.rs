@@ -7,5 +7,7 @@ mod verify;
 
 pub use laws::{Law, Laws, Limits, verify_laws};
 pub use order::{Order, measured_order};
-pub use study::{Mode, Row, Study, ladder_of_steps, ladder_of_tolerances, study, thrown_ball};
+pub use study::{
+    Mode, Path, Row, Study, ladder_of_steps, ladder_of_tolerances, study, thrown_ball,
+};
 pub use verify::{CheckRow, MethodRow, Verdict, verify};

@@ -60,7 +60,7 @@ fn order_over(motion: &Motion, facts: &Facts) -> Result<Order> {
     let usable = |rungs: &&[(Real, Real)]| {
         rungs[0].1 < LARGE && rungs[1].1 > floor(rungs[1].0).max(rounding(rungs[1].0) / 16.0)
     };
-    let finest = ladder.windows(2).filter(usable).next_back();
+    let finest = ladder.windows(2).rfind(usable);
     Ok(finest.map_or(Order::Unclear, |rungs| {
         Order::Slope(libm::log(rungs[0].1 / rungs[1].1) / libm::log(rungs[1].0 / rungs[0].0))
     }))

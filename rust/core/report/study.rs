@@ -126,7 +126,7 @@ fn chosen(names: &[String]) -> Result<Vec<&'static Facts>> {
     if names.is_empty() {
         return Ok(REGISTRY.iter().map(|method| method.facts()).collect());
     }
-    names.iter().map(|name| crate::methods::method(name).map(|method| method.facts())).collect()
+    names.iter().map(|name| Ok(crate::methods::method(name)?.facts())).collect()
 }
 
 fn takes_closed_form(motion: &Motion) -> Result<bool> {
@@ -213,18 +213,26 @@ fn error_at_end(motion: &Motion, world: &World, trajectory: &Trajectory) -> Real
     sampled.max(motion.error(world, &end))
 }
 
-/// The source's own picture: where a thrown ball goes at several ticks a second, by each of these
-/// methods, with the exact solution's own shortcut off. Row k of a path is the ball's position after
-/// k ticks.
+/// Where a thrown ball went at some ticks a second, by some method.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Path {
+    /// The method.
+    pub method: String,
+    /// Ticks a second.
+    pub ticks_per_second: u32,
+    /// Position (m) after each tick, the start first.
+    pub points: Vec<[Real; 2]>,
+}
+
+/// The picture every beginner's guide opens with: the ball of scene S1 at several ticks a second, by
+/// each of these methods, moved by the method even where the exact solution is known.
 ///
 /// # Errors
-/// An unknown method.
-pub fn thrown_ball(
-    methods: &[&str],
-    ticks_per_second: &[u32],
-) -> Result<Vec<(String, u32, Vec<[Real; 2]>)>> {
-    let scene = crate::scenes::scene("projectile")?;
-    let Answer::Motion(motion) = scene.answer else { return Ok(Vec::new()) };
+/// An unknown method, or no ticks.
+pub fn thrown_ball(methods: &[&str], ticks_per_second: &[u32]) -> Result<Vec<Path>> {
+    let Answer::Motion(motion) = crate::scenes::scene("projectile")?.answer else {
+        return Ok(Vec::new());
+    };
     let mut paths = Vec::new();
     for method in methods {
         for &ticks in ticks_per_second {
@@ -234,8 +242,8 @@ pub fn thrown_ball(
             world.set_substeps(1)?;
             let seconds = motion.duration.ceil() as u32;
             let path = world.record(1.0 / Real::from(ticks), ticks * seconds, 1)?;
-            let points = path.poses.iter().map(|pose| [pose.position.x, pose.position.y]);
-            paths.push(((*method).to_owned(), ticks, points.collect()));
+            let points = path.poses.iter().map(|pose| pose.position.into()).collect();
+            paths.push(Path { method: (*method).to_owned(), ticks_per_second: ticks, points });
         }
     }
     Ok(paths)

@@ -2,8 +2,8 @@
 
 use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Twist};
-use crate::methods::{Adaptive, Control, Progress, Span};
-use crate::world::{StepReport, Trajectory, World, step};
+use crate::methods::{Adaptive, Control, Progress, Sink, Span};
+use crate::world::{StepReport, Trajectory, World};
 
 impl World {
     /// Moves the world on by a duration (s), to a tolerance (relative, 1e-15 to 0.1).
@@ -51,7 +51,7 @@ impl World {
                 world.advance_to_tolerance(span, tolerance, (start, &mut trajectory))
             })?;
             world.finish(duration)?;
-            trajectory.to_frames(&world.state.bodies);
+            trajectory.in_frames(&world.state.bodies);
             trajectory.shift(start);
             Ok(trajectory)
         })
@@ -65,19 +65,15 @@ impl World {
     ) -> Result<()> {
         let passed = span.start - start;
         let samples = trajectory.within(passed, passed + span.duration);
-        self.sample_closed(passed, samples.clone(), trajectory);
+        if !samples.is_empty() {
+            self.sample_closed(passed, samples.clone(), trajectory);
+        }
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
-        let runs: Vec<_> = if plan.together {
-            vec![0..self.state.bodies.len()]
-        } else {
-            plan.single.iter().map(|&i| i..i + 1).collect()
-        };
-        self.plan = Some(plan);
         let times: Vec<Real> =
             trajectory.times[samples.clone()].iter().map(|t| t - passed).collect();
         let mut worst: Real = 0.0;
-        for run in runs {
+        for run in plan.runs() {
             let first = run.start;
             let mut sink = |k: usize, poses: &[Pose], twists: &[Twist]| {
                 trajectory.write(samples.start + k, first, poses, twists);
@@ -85,6 +81,7 @@ impl World {
             let progress = self.run_to_tolerance(run, span, (tolerance, &times), &mut sink)?;
             worst = worst.max(progress.estimate);
         }
+        self.plan = Some(plan);
         self.report.estimate = self.report.estimate.map(|sum| sum + worst);
         Ok(())
     }
@@ -95,7 +92,7 @@ impl World {
         run: std::ops::Range<usize>,
         span: Span,
         (tolerance, samples): (Real, &[Real]),
-        sink: &mut dyn FnMut(usize, &[Pose], &[Twist]),
+        sink: &mut Sink<'_>,
     ) -> Result<Progress> {
         let (mut forces, mut motion, scratch) = self.split(run);
         let infos = forces.infos;
@@ -110,26 +107,23 @@ impl World {
         Ok(progress)
     }
 
-    /// Samples of the bodies whose solution is known, and of those that rest.
+    /// Samples of the bodies whose solution is known, and of those that rest: the state goes there and back.
     fn sample_closed(
         &mut self,
         passed: Real,
         samples: std::ops::Range<usize>,
         trajectory: &mut Trajectory,
     ) {
-        let bodies = &self.state.bodies;
+        let start = (self.state.bodies.poses.clone(), self.state.bodies.twists.clone());
+        let (ledger, steps) = (self.state.ledger, self.report.steps);
         for k in samples {
+            self.advance_closed(trajectory.times[k] - passed);
+            let bodies = &mut self.state.bodies;
             trajectory.write(k, 0, &bodies.poses, &bodies.twists);
-            let h = trajectory.times[k] - passed;
-            for &i in self.plan.as_ref().map_or(&[][..], |plan| &plan.closed) {
-                let (mut pose, mut twist) = (bodies.poses[i], bodies.twists[i]);
-                let settings = &self.state.settings;
-                let constant = step::constant(bodies, &self.scratch.steady, settings, i);
-                let mut ledger = self.state.ledger;
-                constant.advance(h, &mut pose, &mut twist, &mut ledger);
-                trajectory.write(k, i, &[pose], &[twist]);
-            }
+            bodies.poses.clone_from(&start.0);
+            bodies.twists.clone_from(&start.1);
         }
+        (self.state.ledger, self.report.steps) = (ledger, steps);
     }
 
     /// `count` steps of dt, keeping the motion after every `every` of them, the start included.
@@ -153,7 +147,7 @@ impl World {
                 trajectory.write(k as usize, 0, &bodies.poses, &bodies.twists);
             }
             (0..count % every).try_for_each(|_| world.tick(dt))?;
-            trajectory.to_frames(&world.state.bodies);
+            trajectory.in_frames(&world.state.bodies);
             Ok(trajectory)
         })
     }

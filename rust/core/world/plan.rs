@@ -2,8 +2,9 @@
 //! content changes.
 
 use std::fmt::Write as _;
+use std::ops::Range;
 
-use crate::body::{Bodies, BodyKind};
+use crate::body::{Bodies, BodyKind, Info};
 use crate::forces::has_drag;
 use crate::math::Wrench;
 use crate::world::{Settings, World};
@@ -13,10 +14,12 @@ use crate::world::{Settings, World};
 pub struct Plan {
     /// Bodies that move with a given velocity, and free bodies under constant forces: closed form.
     pub(super) closed: Vec<usize>,
+    /// The same with damping, whose closed form costs more and reads what stands apart.
+    pub(super) damped: Vec<usize>,
     /// Bodies that each move by a method, by themselves.
     pub(super) single: Vec<usize>,
-    /// A field acts: all bodies move by a method, together.
-    pub(super) together: bool,
+    /// A field acts: all bodies, this many, move by a method, together.
+    pub(super) together: usize,
     /// Some body has a constant force.
     pub(super) forces: bool,
 }
@@ -24,7 +27,7 @@ pub struct Plan {
 impl Plan {
     pub(super) fn new(bodies: &Bodies, settings: &Settings, fields: usize) -> Self {
         let mut plan = Self {
-            together: fields > 0 && !bodies.is_empty(),
+            together: if fields > 0 { bodies.len() } else { 0 },
             forces: bodies.forces.iter().any(|wrench| *wrench != Wrench::ZERO),
             ..Self::default()
         };
@@ -33,13 +36,30 @@ impl Plan {
             let constant = settings.closed_form && !has_drag(info, settings.air);
             match info.def.kind {
                 BodyKind::Static => {}
-                _ if plan.together => {}
-                _ if !dynamic || constant => plan.closed.push(i),
+                _ if plan.together > 0 => {}
+                _ if !dynamic => plan.closed.push(i),
+                _ if constant && is_damped(info) => plan.damped.push(i),
+                _ if constant => plan.closed.push(i),
                 _ => plan.single.push(i),
             }
         }
         plan
     }
+
+    /// The bodies whose solution is known.
+    pub(super) fn solved(&self) -> impl Iterator<Item = usize> {
+        self.closed.iter().chain(&self.damped).copied()
+    }
+
+    /// The runs of bodies that a method moves, each an island of its own.
+    pub(super) fn runs(&self) -> impl Iterator<Item = Range<usize>> {
+        let together = (self.together > 0).then_some(0..self.together);
+        together.into_iter().chain(self.single.iter().map(|&i| i..i + 1))
+    }
+}
+
+fn is_damped(info: &Info) -> bool {
+    info.def.linear_damping > 0.0 || info.def.angular_damping > 0.0
 }
 
 fn count(n: usize) -> String {
@@ -65,9 +85,11 @@ impl World {
             // OK because writing to a String cannot fail.
             let _ = writeln!(text, "  {stage:<8} {what}");
         };
-        if !plan.closed.is_empty() {
-            let how = "closed form, exact at any step (constant forces)";
-            line("advance", &format!("{}: {how}", count(plan.closed.len())));
+        for (bodies, how) in [(&plan.closed, ""), (&plan.damped, " and damping")] {
+            if !bodies.is_empty() {
+                let how = format!("closed form, exact at any step (constant forces{how})");
+                line("advance", &format!("{}: {how}", count(bodies.len())));
+            }
         }
         if !plan.single.is_empty() {
             let air = if settings.air.density > 0.0 { ", air drag" } else { "" };
@@ -76,19 +98,19 @@ impl World {
                 &format!("{}, each by itself: {by_method}{air}", count(plan.single.len())),
             );
         }
-        if plan.together {
+        if plan.together > 0 {
             let names: Vec<_> = self.fields.iter().map(|field| field.name()).collect();
-            let all = count(bodies.len());
+            let all = count(plan.together);
             line("advance", &format!("{all} together: {by_method}; fields: {}", names.join(", ")));
         }
         if !self.state.schedules.values().is_empty() {
             line("advance", "split where a scheduled force changes");
         }
-        if plan.closed.is_empty() && plan.single.is_empty() && !plan.together {
+        if plan.closed.is_empty() && plan.damped.is_empty() && plan.runs().next().is_none() {
             line("advance", "nothing moves");
         }
         line("report", "finite check, counters");
-        line("no", "detection and no contact stage: nothing of that is in this world's plan");
+        line("not run", "detection: nothing here can collide");
         for stage in &self.report.stages {
             line("time", &format!("{:<8} {:.3e} s in the last run", stage.name, stage.seconds));
         }

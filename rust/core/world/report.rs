@@ -90,7 +90,7 @@ impl Trajectory {
     }
 
     /// From the centres of mass to the bodies' frames.
-    pub(super) fn to_frames(&mut self, bodies: &Bodies) {
+    pub(super) fn in_frames(&mut self, bodies: &Bodies) {
         for (place, pose) in self.poses.iter_mut().enumerate() {
             let local = bodies.infos[place % self.bodies].local_center;
             if local != crate::math::Vec2::zeros() {

@@ -130,3 +130,25 @@ impl Snapshot {
         Ok(Self { state: stored.state, fields })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::BodyDef;
+    use crate::math::vec2;
+    use crate::shapes::Shape;
+
+    #[test]
+    fn bytes_hold_bodies_with_and_without_what_is_optional() {
+        let mut world = World::default();
+        let ball = BodyDef::new(Shape::circle(1.0).unwrap());
+        world.add_body(ball.clone()).unwrap();
+        let named = BodyDef { name: Some("ball".into()), inertia: Some(2.0), ..ball };
+        world.add_body(BodyDef { velocity: vec2(1.0, 2.0), ..named }).unwrap();
+        let bytes = world.snapshot().to_bytes().unwrap();
+        let mut copy = Snapshot::from_bytes(&bytes, Vec::new()).unwrap().to_world();
+        (world.steps(0.1, 10).unwrap(), copy.steps(0.1, 10).unwrap());
+        assert_eq!(world.bodies().poses, copy.bodies().poses);
+        assert_eq!(world.bodies().infos[1].def, copy.bodies().infos[1].def);
+    }
+}

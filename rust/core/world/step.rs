@@ -6,7 +6,7 @@ use crate::body::Bodies;
 use crate::error::{Error, Result, check};
 use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
-use crate::methods::closed_form::Constant;
+use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span};
 use crate::world::{Clock, State, StepReport, World};
 
@@ -133,11 +133,7 @@ impl World {
     fn advance_span(&mut self, span: Span) -> Result<()> {
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
-        let result = if plan.together {
-            self.advance_run(0..self.state.bodies.len(), span)
-        } else {
-            plan.single.iter().try_for_each(|&i| self.advance_run(i..i + 1, span))
-        };
+        let result = plan.runs().try_for_each(|run| self.advance_run(run, span));
         self.plan = Some(plan);
         result
     }
@@ -147,13 +143,18 @@ impl World {
         let Self { state, scratch, plan, report, .. } = self;
         let State { bodies, settings, ledger, .. } = state;
         let Some(plan) = plan else { return };
+        let steady = |i: usize| scratch.steady.get(i).copied().unwrap_or(Wrench::ZERO);
+        let Bodies { poses, twists, masses, infos, .. } = bodies;
         for &i in &plan.closed {
-            let (mut pose, mut twist) = (bodies.poses[i], bodies.twists[i]);
-            constant(bodies, &scratch.steady, settings, i)
-                .advance(h, &mut pose, &mut twist, ledger);
-            (bodies.poses[i], bodies.twists[i]) = (pose, twist);
+            let force = Constant { mass: &masses[i], steady: steady(i), gravity: settings.gravity };
+            force.advance(h, &mut poses[i], &mut twists[i], ledger);
         }
-        report.steps += u64::from(!plan.closed.is_empty());
+        for &i in &plan.damped {
+            let force = Constant { mass: &masses[i], steady: steady(i), gravity: settings.gravity };
+            let damping = Damping::of(&masses[i], &infos[i], settings.air);
+            force.advance_damped(h, &damping, (&mut poses[i], &mut twists[i]), ledger);
+        }
+        report.steps += u64::from(!plan.closed.is_empty() || !plan.damped.is_empty());
     }
 
     /// Moves a run of bodies by the world's method.
@@ -175,10 +176,10 @@ impl World {
     ) -> (Forces<'_>, Motion<'_>, &mut crate::methods::Scratch) {
         let Self { state, scratch, fields, .. } = self;
         let State { bodies, settings, ledger, .. } = state;
-        let (handles, poses, twists, masses, infos) = bodies.for_methods();
+        let Bodies { map, poses, twists, masses, infos, .. } = bodies;
         let steady = if scratch.steady.is_empty() { 0..0 } else { run.clone() };
         let forces = Forces {
-            handles,
+            handles: map,
             masses: &masses[run.clone()],
             infos: &infos[run.clone()],
             steady: &scratch.steady[steady],
@@ -197,9 +198,8 @@ impl World {
         self.report.duration += dt;
         let Some(plan) = &self.plan else { return Ok(()) };
         let bodies = &self.state.bodies;
-        let moved = plan.closed.iter().chain(&plan.single).copied();
-        let all = 0..if plan.together { bodies.len() } else { 0 };
-        if let Some(body) = moved.chain(all).find(|&i| !is_finite(bodies, i)) {
+        let mut moved = plan.solved().chain(plan.runs().flatten());
+        if let Some(body) = moved.find(|&i| !is_finite(bodies, i)) {
             let hint = "check forces, velocities and dt; the world is as before the call";
             let time = self.time();
             return Err(Error::NotFinite { time, what: "position or velocity", body, hint });
@@ -208,27 +208,6 @@ impl World {
             self.state.bodies.applied.fill(Wrench::ZERO);
         }
         Ok(())
-    }
-}
-
-/// Body `i` under constant forces.
-pub(super) fn constant<'a>(
-    bodies: &'a Bodies,
-    steady: &[Wrench],
-    settings: &crate::world::Settings,
-    i: usize,
-) -> Constant<'a> {
-    let (mass, def) = (&bodies.masses[i], &bodies.infos[i].def);
-    let damping = |free: bool, rate: Real| if free { rate } else { 0.0 };
-    Constant {
-        mass,
-        steady: steady.get(i).copied().unwrap_or(Wrench::ZERO),
-        gravity: settings.gravity,
-        damping: (
-            damping(mass.inverse != crate::math::Vec2::zeros(), def.linear_damping),
-            damping(mass.inverse_inertia > 0.0, def.angular_damping),
-        ),
-        wind: settings.air.wind,
     }
 }
 
