@@ -186,4 +186,4 @@ class Path:
 def thrown_ball(methods: Sequence[str], ticks_per_second: Sequence[int]) -> list[Path]:
     """Paths of the thrown ball of S1 by each method, at each number of ticks a second."""
     paths = json.loads(_native.thrown_ball(list(methods), list(ticks_per_second)))
-    return [Path(method, ticks, tuple(map(tuple, points))) for method, ticks, points in paths]
+    return [Path(**{**path, "points": tuple(map(tuple, path["points"]))}) for path in paths]

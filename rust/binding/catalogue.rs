@@ -88,7 +88,7 @@ pub fn measured_order(py: Python<'_>, name: &str, method: &str) -> PyResult<Stri
     })
 }
 
-/// Paths of a thrown ball: [method, ticks a second, [[x, y], …]] for each method and tick rate.
+/// Paths of a thrown ball by each method, at each tick rate.
 #[pyfunction]
 pub fn thrown_ball(py: Python<'_>, methods: Vec<String>, ticks: Vec<u32>) -> PyResult<String> {
     let names: Vec<&str> = methods.iter().map(String::as_str).collect();
@@ -149,7 +149,7 @@ pub fn scene_error(
 #[pyfunction]
 pub fn open_scene<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, World>> {
     let motion = motion_of(name)?;
-    World::adopt(py, (motion.build)().map_err(to_py)?)
+    World::assembled(py, (motion.build)().map_err(to_py)?, &[])
 }
 
 /// The world of a scene file, and what the file says of itself: name, about, dt and duration of its run.
@@ -164,7 +164,7 @@ pub fn read_scene<'py>(py: Python<'py>, path: &str) -> PyResult<(Bound<'py, Worl
         .map_err(to_py)?;
     let (dt, duration) = (file.run.dt, file.run.duration);
     let said = json!({ "name": file.name, "about": file.about, "dt": dt, "duration": duration });
-    Ok((World::adopt(py, core)?, said.to_string()))
+    Ok((World::assembled(py, core, &[])?, said.to_string()))
 }
 
 /// The conservation laws on a run of a copy of a world. Limits: energy, momentum, angular momentum,

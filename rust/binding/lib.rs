@@ -6,11 +6,11 @@
 use pyo3::prelude::*;
 
 pub mod add_body;
-pub mod adopt;
 pub mod arrays;
 pub mod body;
 pub mod catalogue;
 pub mod convert;
+pub mod drawing;
 pub mod error;
 pub mod field;
 pub mod law;

@@ -35,7 +35,7 @@ def number(value: float | None) -> str:
     return "0" if value == 0 else f"{value:.1e}"
 
 
-def passed(ok: bool) -> str:  # noqa: FBT001 — a verdict is what it is given
+def passed(ok: bool) -> str:
     """A verdict, coloured."""
     return "[green]pass[/]" if ok else "[bold red]FAIL[/]"
 

@@ -41,7 +41,7 @@ def report(scenes: tuple[str, ...], *, output: Path, quick: bool) -> None:
 
         written += write_page(results, output)
     for path in written:
-        console().print(Text(f"wrote {path}"))
+        console().print(Text(f"wrote {path}"), soft_wrap=True)
     if missing:
         hint = f"no page without {' and '.join(missing)}: pip install 'culbuto[plot]'"
-        console(stderr=True).print(Text(hint))
+        console(stderr=True).print(Text(hint), soft_wrap=True)

@@ -38,7 +38,7 @@ def run(scene: str, **options: Any) -> None:
     _above_zero("duration", duration)
     out = console()
     out.print(f"[bold]{source.name}[/] {source.title}".rstrip())
-    out.print(Text(source.world.explain().rstrip()), style="dim")
+    out.print(Text(_plan(source.world, options["tolerance"]), style="dim"), soft_wrap=True)
     before = _state(source.world)
     recording = _record(source, options, duration)
     _print_report(recording)
@@ -50,7 +50,7 @@ def run(scene: str, **options: Any) -> None:
         )
         out.print(f"error against the exact answer: {number(error)} of {source.scene.length:g} m")
     for path in _write(source.name, recording, source.world, options):
-        out.print(Text(f"wrote {path}"))
+        out.print(Text(f"wrote {path}"), soft_wrap=True)
 
 
 def _above_zero(what: str, value: float) -> None:
@@ -68,6 +68,16 @@ def _apply(world: World, options: dict[str, Any]) -> None:
         world.method = options["method"]
     if options["substeps"] is not None:
         world.substeps = options["substeps"]
+
+
+def _plan(world: World, tolerance: float | None) -> str:
+    """What runs."""
+    plan = world.explain().rstrip()
+    if tolerance is None:
+        return plan
+    return (
+        f"{plan}\n  run      to a tolerance of {tolerance:g}: by DOP853 instead of {world.method}"
+    )
 
 
 def _record(source: Source, options: dict[str, Any], duration: float) -> Recording:
@@ -93,7 +103,7 @@ def _print_report(recording: Recording) -> None:
         f"estimated error {number(report.estimate)}" if report.estimate is not None else "",
         f"{kept} moments kept",
     ]
-    console().print(Text(" · ".join(filter(None, parts))))
+    console().print(Text(" · ".join(filter(None, parts))), soft_wrap=True)
 
 
 def _state(world: World) -> tuple[Energy, Vec2, float]:
@@ -117,9 +127,7 @@ def _print_laws(before: tuple[Energy, Vec2, float], after: tuple[Energy, Vec2, f
     console().print(rows)
 
 
-def _write(
-    name: str, recording: Recording, world: World, options: dict[str, Any]
-) -> list[Path]:
+def _write(name: str, recording: Recording, world: World, options: dict[str, Any]) -> list[Path]:
     stem = "".join(c if c.isalnum() or c in "-_" else "-" for c in name)
     folder: Path = options["output"] or Path()
     folder.mkdir(parents=True, exist_ok=True)

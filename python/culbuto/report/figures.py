@@ -113,7 +113,9 @@ def _slopes(ax: Axes, low: float, high: float, orders: Sequence[int]) -> None:
     for order in orders:
         reach = max(low / 1.6, high * (ROUNDING / MOST) ** (1 / order))
         end = MOST * (reach / high) ** order
-        ax.plot([high, reach], [MOST, end], color=MUTED.light, linewidth=0.7, linestyle=":", zorder=1)
+        ax.plot(
+            [high, reach], [MOST, end], color=MUTED.light, linewidth=0.7, linestyle=":", zorder=1
+        )
         power = "h" if order == 1 else "h" + str(order).translate(RAISED)
         at_edge = reach <= low / 1.5
         ax.annotate(
@@ -125,7 +127,9 @@ def _slopes(ax: Axes, low: float, high: float, orders: Sequence[int]) -> None:
 def scene_figures(study: Study) -> tuple[Figure, Figure]:
     """Error against time, and error against step, of one scene."""
     with mpl.rc_context(RC):
-        time, order = (Figure(figsize=size, layout="constrained") for size in ((4.6, 3.5), (3.5, 3.5)))
+        time, order = (
+            Figure(figsize=size, layout="constrained") for size in ((4.6, 3.5), (3.5, 3.5))
+        )
         plot_time(study, time.add_subplot(title="error against run time"))
         plot_order(study, order.add_subplot(title="error against step"))
     return time, order

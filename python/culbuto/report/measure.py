@@ -47,7 +47,10 @@ class Results:
 
 
 def measure(
-    scenes: Sequence[Scene], *, quick: bool = False, done: Callable[[Scene], object] = lambda _: None
+    scenes: Sequence[Scene],
+    *,
+    quick: bool = False,
+    done: Callable[[Scene], object] = lambda _: None,
 ) -> Results:
     """Runs the scenes, one after the other on one thread. `quick`: few steps, each timed once."""
     results = []
