@@ -5,19 +5,21 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from culbuto import _native
 from culbuto._json import or_infinite
-from culbuto._native import World
+
+if TYPE_CHECKING:
+    from culbuto._native import World
 
 
 @dataclass(frozen=True)
 class Scene:
     """A scene of the catalogue.
 
-    `duration` (s), fixed step `dt` (s) and `tolerance` are those it is judged at, and `length` (m) what
-    its errors are relative to; None where the answer is not a motion but numbers.
+    `duration` (s), fixed step `dt` (s) and `tolerance` are those it is judged at, and `length` (m)
+    what its errors are relative to; None where the answer is not a motion but numbers.
     """
 
     id: str
@@ -57,9 +59,9 @@ class Check:
 class MethodCheck:
     """One method on a scene, moving also what has a closed form.
 
-    `error` is relative to the scene's length, at its fixed step, and `energy` the change of the energy
-    balance over the largest kinetic energy; infinite where the method refuses that step or
-    diverges. `order_measured` is None where the method is `exact` here or nothing clear is measured.
+    `error` is relative to the scene's length, at its fixed step, and `energy` the change of the
+    energy balance over the largest kinetic energy; infinite where the method refuses that step or
+    diverges. `order_measured` is None where the method is `exact` here, or nothing clear comes out.
     """
 
     method: str
@@ -110,7 +112,7 @@ def find(name: str) -> Scene:
 
 
 def verify(name: str) -> Verdict:
-    """Runs a scene of the catalogue against its answer, by the engine as it comes and by every method.
+    """Runs a scene against its answer, by the engine as it comes and by every method.
 
     >>> import culbuto as cb
     >>> cb.verify("S1").passed
@@ -204,8 +206,8 @@ def verify_laws(
 ) -> Laws:
     """Measures the conservation laws on any world: energy, momentum, angular momentum, third law.
 
-    A copy of the world is run; the world itself stays as it is. A law that outside forces suspend is
-    reported as one that does not apply.
+    A copy of the world is run; the world itself stays as it is. A law that outside forces suspend
+    is reported as one that does not apply.
 
     Args:
         world: The world.

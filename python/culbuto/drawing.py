@@ -5,7 +5,6 @@ Colours are of middle lightness on no background, so that they read on white and
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape, quoteattr
@@ -13,10 +12,12 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from culbuto._native import Body, Trajectory, World
-
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from matplotlib.axes import Axes
+
+    from culbuto._native import Body, Trajectory, World
 
 Points = NDArray[np.float64]
 
@@ -32,8 +33,8 @@ MOST_PATH_POINTS = 1000
 class Sketch:
     """What is drawn of a body at a moment, in world coordinates (m).
 
-    `rings` are its outlines, closed where the first point is the last. `mark` goes from the centre of
-    mass in the direction of the body's x axis; it has no length where the body has no shape.
+    `rings` are its outlines, closed where the first point is the last. `mark` goes from the centre
+    of mass in the direction of the body's x axis; it has no length where the body has no shape.
     """
 
     name: str
@@ -49,7 +50,7 @@ class Sketch:
         turn = np.array([[cos, sin], [-sin, cos]])
         center = np.asarray(body.local_center)
         reach = 0.5 * min((np.ptp(ring, axis=0).max() for ring in local), default=0.0)
-        mark = np.array([center, center + (0.6 * reach, 0.0)])
+        mark = np.array([center, center + np.array([0.6 * reach, 0.0])])
         rings = tuple(ring @ turn + position for ring in local)
         return cls(body.name or "", body.kind, rings, mark @ turn + position)
 
@@ -177,8 +178,8 @@ class _Canvas:
         ])  # fmt: skip
 
 
-def draw(world: World, ax: Axes, **style: Any) -> Axes:
-    """Draws the world as it is on matplotlib axes, in metres; `style` goes to the shapes' patches."""
+def draw(world: World, ax: Axes, **style: Any) -> Axes:  # noqa: ANN401 — whatever a patch takes
+    """Draws the world as it is on matplotlib axes, in metres; `style` goes to the patches."""
     from matplotlib.patches import PathPatch  # noqa: PLC0415 — comes with an extra
     from matplotlib.path import Path  # noqa: PLC0415
 

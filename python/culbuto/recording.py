@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from culbuto._native import StepReport, Trajectory, World
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+
+    from numpy.typing import NDArray
 
 COLUMNS = ("positions", "angles", "velocities", "angular_velocities")
 MOST_SAMPLES = 10_000
@@ -26,7 +30,7 @@ class Recording:
     report: StepReport
 
     def save_npz(self, path: Path) -> None:
-        """Writes times (k,), positions (k, n, 2), angles (k, n), velocities, angular_velocities, names."""
+        """Writes names, times (k,), positions (k, n, 2), angles (k, n), and the velocities alike."""
         motion = self.trajectory
         arrays = {name: getattr(motion, name) for name in ("times", *COLUMNS)}
         np.savez_compressed(path, names=np.array(self.names), **arrays)
@@ -55,7 +59,7 @@ def record_steps(
     steps: int,
     done: Callable[[int], object] = lambda _: None,
 ) -> Recording:
-    """Runs `steps` steps of `dt` (s), keeping at most 10 000 of them; `done` hears of steps taken."""
+    """Runs `steps` steps of `dt` (s), keeping at most 10 000; `done` hears of steps taken."""
     every = -(-steps // MOST_SAMPLES)
     samples_at_once = max(1, steps // every // 50)
     parts: list[Trajectory] = []

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -13,6 +12,8 @@ from culbuto._json import or_infinite
 from culbuto.catalogue import Scene, find
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from matplotlib.axes import Axes
 
 STEPS_A_RUN = tuple(2**k for k in range(4, 15))
@@ -25,7 +26,7 @@ class Row:
 
     Either `step` (s) or `tolerance` is given. `method` is "closed_form" for the exact solution of
     constant forces. `error` is the largest over times and bodies, relative to the scene's length,
-    infinite where the run diverged; `seconds` the median wall time of a run, and `seconds_per_second`
+    infinite where the run diverged; `seconds` the median wall time of a run, `seconds_per_second`
     that for each simulated second; `energy` the change of the energy balance over the largest
     kinetic energy.
     """
@@ -102,7 +103,7 @@ class Study:
 
     @cached_property
     def order(self) -> dict[str, Order]:
-        """Stated and measured order of each method, from runs of its own at finer and finer steps."""
+        """Stated and measured order of each method, from runs at finer and finer steps."""
         return {
             method.name: _order(self.scene.name, method.name, method.order)
             for method in _native.methods()
@@ -119,7 +120,7 @@ class Study:
         return [asdict(row) for row in self.rows]
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draws error against wall seconds for each simulated second, log–log (needs matplotlib)."""
+        """Draws error against wall seconds per simulated second, log–log (needs matplotlib)."""
         from culbuto.report import figures  # noqa: PLC0415 — matplotlib comes with an extra
 
         return figures.plot_study(self, ax)

@@ -13,19 +13,23 @@ from culbuto.cli.scenes import scenes
 from culbuto.cli.verify import verify
 
 
+class BadInput(click.ClickException):
+    """What a command was given is not what it takes."""
+
+    exit_code = 2
+
+
 class Commands(click.Group):
     """Commands that say in a line what was wrong with what they were given."""
 
-    def invoke(self, ctx: click.Context) -> Any:
+    def invoke(self, ctx: click.Context) -> object:
         """Runs the command: status 2 for bad input, 1 for a motion that cannot go on."""
         try:
             return super().invoke(ctx)
         except culbuto.SimulationError as error:
             raise click.ClickException(str(error)) from error
         except (ValueError, OSError) as error:
-            problem = click.ClickException(str(error))
-            problem.exit_code = 2
-            raise problem from error
+            raise BadInput(str(error)) from error
 
 
 @click.group(cls=Commands, context_settings={"help_option_names": ["-h", "--help"]})

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 from rich.text import Text
 
 from culbuto import _native
-from culbuto._native import Energy, StepReport, Vec2, World
 from culbuto.cli.output import console, number, progress, table
 from culbuto.cli.source import Source, open_source
 from culbuto.drawing import picture
 from culbuto.recording import Recording, record_steps, record_to_tolerance
+
+if TYPE_CHECKING:
+    from culbuto._native import Energy, StepReport, Vec2, World
 
 
 @click.command()
@@ -27,7 +29,7 @@ from culbuto.recording import Recording, record_steps, record_to_tolerance
 @click.option("--output", type=click.Path(path_type=Path, file_okay=False), help="Write there.")
 @click.option("--format", "form", type=click.Choice(["npz", "csv"]), default="npz")
 @click.option("--picture", "draw", is_flag=True, help="Write a picture (SVG), too.")
-def run(scene: str, **options: Any) -> None:
+def run(scene: str, **options: Any) -> None:  # noqa: ANN401 — as click hands them
     """Run a scene of the catalogue, or a scene file, and say how well it went.
 
     The motion is written if --output is given, the picture if --picture is.

@@ -5,9 +5,12 @@ from __future__ import annotations
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from culbuto import _native, catalogue
-from culbuto._native import World
+
+if TYPE_CHECKING:
+    from culbuto._native import World
 
 
 @dataclass(frozen=True)

@@ -28,11 +28,11 @@ Json = dict[str, Any]
 @click.option("--momentum", type=float, help="The same of momentum [1e-9].")
 @click.option("--angular-momentum", type=float, help="The same of angular momentum [1e-9].")
 @click.option("--third-law", type=float, help="The same of Newton's third law [1e-12].")
-def verify(scenes: tuple[str, ...], *, as_json: bool, laws: bool, **options: Any) -> None:
+def verify(scenes: tuple[str, ...], *, as_json: bool, laws: bool, **options: Any) -> None:  # noqa: ANN401
     """Check scenes of the catalogue against their answers; all of them by default.
 
-    With --laws, check the conservation laws on any scenes, files of your own included. The status is
-    1 if anything fails.
+    With --laws, check the conservation laws on any scenes, files of your own included. The status
+    is 1 if anything fails.
     """
     if laws:
         ok = _verify_laws(scenes, options, as_json=as_json)
@@ -50,10 +50,9 @@ def _verify_answers(names: tuple[str, ...], options: Json, *, as_json: bool) -> 
             message = f"{name} is a file, which has no answer to be checked against; use --laws"
             raise click.UsageError(message)
     chosen = [catalogue.find(name) for name in names] or catalogue.scenes()
-    verdicts = []
     with progress() as bar:
-        for scene in bar.track(chosen, description="verifying"):
-            verdicts.append(catalogue.verify(scene.name))
+        tracked = bar.track(chosen, description="verifying")
+        verdicts = [catalogue.verify(scene.name) for scene in tracked]
     if as_json:
         click.echo(dumps([asdict(verdict) for verdict in verdicts]))
     else:

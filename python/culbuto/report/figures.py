@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 from itertools import groupby
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING
 import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import LogLocator
 
 from culbuto import _native
@@ -20,6 +20,8 @@ from culbuto.report.style import INK, LINE, METHODS, MUTED, RC, Look
 from culbuto.study import Path, Row, Study, thrown_ball
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
     from matplotlib.axes import Axes
 
 LEAST = 1e-17  # what is exact to the last bit is drawn there
@@ -148,8 +150,8 @@ def throw_panels(throw: Study) -> list[Figure]:
 def throw_figure(throw: Study) -> Figure:
     """The first figure in one piece."""
     with mpl.rc_context(RC):
-        figure = Figure(figsize=(9.0, 6.2), layout="constrained")
-        figure.get_layout_engine().set(w_pad=0.12, h_pad=0.12)
+        spacious = ConstrainedLayoutEngine(w_pad=0.12, h_pad=0.12)
+        figure = Figure(figsize=(9.0, 6.2), layout=spacious)
         for place, draw in enumerate(_throw_drawers(throw), start=1):
             draw(figure.add_subplot(2, 2, place))
     return figure

@@ -5,15 +5,19 @@ from __future__ import annotations
 import csv
 import os
 import platform
-from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import culbuto
 from culbuto import catalogue
 from culbuto._json import dumps
-from culbuto.catalogue import Scene, Verdict
 from culbuto.study import Row, Study, study
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from culbuto.catalogue import Scene, Verdict
 
 THROWN = "projectile"
 THROW_METHODS = ("explicit_euler", "semi_implicit_euler", "leapfrog")
@@ -33,7 +37,7 @@ class SceneResult:
 
 @dataclass(frozen=True)
 class Results:
-    """Everything the report shows. `throw` is the study of the thrown ball at several ticks a second."""
+    """Everything the report shows; `throw` is the thrown ball at several ticks a second."""
 
     scenes: tuple[SceneResult, ...]
     throw: Study

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from datetime import date
 from html import escape
 from importlib.resources import files
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from culbuto import _native
-from culbuto.catalogue import Check, MethodCheck, Verdict
 from culbuto.report import style
 from culbuto.report.measure import Results, SceneResult, versions
-from culbuto.study import Row, Study
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
+    from culbuto.catalogue import Check, MethodCheck, Verdict
+    from culbuto.study import Row, Study
 
 TARGETS = (1e-2, 1e-4, 1e-8)
 

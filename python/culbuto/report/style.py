@@ -1,7 +1,7 @@
 """How the figures look: one colour and one mark for each method, on light and on dark.
 
-Figures are drawn in the light colours. Written as SVG, each colour becomes a variable of CSS, to which the
-page (or the file itself) gives a value for light and one for dark.
+Figures are drawn in the light colours. Written as SVG, each colour becomes a variable of CSS, to
+which the page (or the file itself) gives a value for light and one for dark.
 """
 
 from __future__ import annotations
@@ -17,8 +17,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Look:
-    """A method's name for people, its colour on light and on dark, matplotlib's marker, and the same mark as
-    an SVG path of ±1.
+    """A name for people, a colour on light and on dark, and a mark.
+
+    The mark is given twice: as matplotlib's `marker`, and as an SVG `path` within about ±1.
     """
 
     label: str
@@ -38,8 +39,8 @@ PLUS = "M-.35,-1H.35V-.35H1V.35H.35V1H-.35V.35H-1V-.35H-.35Z"
 CROSS = "M-1,-.5L-.5,-1L0,-.5L.5,-1L1,-.5L.5,0L1,.5L.5,1L0,.5L-.5,1L-1,.5L-.5,0Z"
 STAR = "M0,-1.3L.31,-.4H1.24L.5,.16L.76,1.05L0,.52L-.76,1.05L-.5,.16L-1.24,-.4H-.31Z"
 
-# Blues and greens for what keeps its promise over long runs, warm colours for the first order methods,
-# told apart also by lightness and by mark, for those who do not see the difference of hue.
+# Blues and greens for the higher orders, warm colours for the Euler methods; told apart also by
+# lightness and by mark, for those who do not see the difference of hue.
 METHODS = {
     "closed_form": Look("closed form", "#1b1f24", "#f0f3f6", "*", STAR),
     "leapfrog": Look("leapfrog", "#0b69c7", "#58a6ff", "o", CIRCLE),
@@ -57,7 +58,7 @@ LINE = Look("", "#d5dbe1", "#343c46", "", "")
 PAPER = Look("", "#fefefe", "#0e1116", "", "")
 OTHERS = {"ink": INK, "muted": MUTED, "line": LINE, "paper": PAPER}
 
-RC: dict[str, Any] = {
+RC: Any = {
     "svg.fonttype": "none",
     "svg.hashsalt": "culbuto",
     "font.family": "sans-serif",
