@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-from typing import Any
 
 
 def or_infinite(number: float | None) -> float:
@@ -12,12 +11,12 @@ def or_infinite(number: float | None) -> float:
     return math.inf if number is None else number
 
 
-def dumps(data: Any) -> str:
+def dumps(data: object) -> str:
     """Readable JSON of data, with null for numbers that JSON does not have."""
     return json.dumps(_finite(data), indent=2, ensure_ascii=False, allow_nan=False)
 
 
-def _finite(data: Any) -> Any:
+def _finite(data: object) -> object:
     if isinstance(data, dict):
         return {key: _finite(value) for key, value in data.items()}
     if isinstance(data, list | tuple):

@@ -1176,7 +1176,7 @@ class World:
     def __setstate__(self, state: tuple[Any, ...]) -> None: ...
     def _repr_svg_(self) -> str:
         """The world as it is, as an SVG: what a notebook shows of it."""
-    def draw(self, ax: Axes, **style: Any) -> Axes:
+    def draw(self, ax: Axes, **style: object) -> Axes:
         """Draws the world as it is on matplotlib axes, in metres; `style` goes to the patches."""
 
 def methods() -> list[Facts]:

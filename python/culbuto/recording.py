@@ -30,7 +30,7 @@ class Recording:
     report: StepReport
 
     def save_npz(self, path: Path) -> None:
-        """Writes names, times (k,), positions (k, n, 2), angles (k, n), and the velocities alike."""
+        """Writes names, times (k,), positions (k, n, 2), angles (k, n), velocities alike."""
         motion = self.trajectory
         arrays = {name: getattr(motion, name) for name in ("times", *COLUMNS)}
         np.savez_compressed(path, names=np.array(self.names), **arrays)
