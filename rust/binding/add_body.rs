@@ -5,11 +5,12 @@ use culbuto::body::{BodyHandle, BodyKind, DragWidth, Locks};
 use culbuto::math::{Real, vec2};
 use pyo3::prelude::*;
 
-use crate::body::{Body, KindArg, WidthArg};
+use crate::body::Body;
 use crate::convert::Vec2Arg;
 use crate::error::to_py;
 use crate::parts::Place;
 use crate::shape::parts;
+use crate::words::{KindArg, WidthArg};
 use crate::world::World;
 
 const ZERO: Vec2Arg = Vec2Arg(vec2(0.0, 0.0));
@@ -51,7 +52,6 @@ impl World {
         drag_coefficient=0.4, drag_width=SILHOUETTE, force=ZERO, torque=0.0, name=None,
     ))]
     #[allow(clippy::too_many_arguments, reason = "one keyword each in Python")]
-    #[allow(clippy::needless_pass_by_value, reason = "as PyO3 hands them")]
     fn add_body<'py>(
         slf: &Bound<'py, Self>,
         shape: Option<&Bound<'py, PyAny>>,

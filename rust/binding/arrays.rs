@@ -38,8 +38,9 @@ impl World {
         if column.width() == 2 {
             let array = convert::points(column.name(), values, Some(n))?;
             match array.as_slice() {
-                Ok(values) => written(values),
-                Err(_) => written(&array.as_array().iter().copied().collect::<Vec<_>>()),
+                // A slice follows the memory, which may be Fortran's.
+                Ok(values) if array.is_c_contiguous() => written(values),
+                _ => written(&array.as_array().iter().copied().collect::<Vec<_>>()),
             }
         } else {
             let array = convert::column(column.name(), values, Some(n))?;
@@ -196,7 +197,7 @@ fn named(name: &str) -> PyResult<Column> {
         Column::Torques,
     ];
     ALL.into_iter().find(|column| column.name() == name).ok_or_else(|| {
-        let names = ALL.map(|column| column.name()).join(", ");
+        let names = ALL.map(Column::name).join(", ");
         PyValueError::new_err(format!("column is {name:?}; allowed: {names}"))
     })
 }

@@ -1,9 +1,8 @@
 //! The Body of Python: one object per body, as long as the body lives.
 
-use culbuto::body::{Body as Kind, BodyDef, BodyKind, DragWidth, Locks};
+use culbuto::body::{Body as Kind, BodyDef, Locks};
 use culbuto::math::{Real, Wrench};
 use culbuto::world::{BodyMut, BodyRef};
-use pyo3::exceptions::PyValueError;
 use pyo3::gc::{PyTraverseError, PyVisit};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -14,6 +13,7 @@ use crate::parts::{Place, Reduced, reduced};
 use crate::shape::parts;
 use crate::shapes::to_python;
 use crate::vec2::Vec2;
+use crate::words::{KindArg, Width, WidthArg, kind_name};
 use crate::world::World;
 
 /// A body of a world. Worlds make bodies: `World.add_body`.
@@ -77,71 +77,6 @@ impl Body {
         drop(core);
         drop((body, schedules));
         Ok(())
-    }
-}
-
-/// "silhouette", "bounding_box", or a width (m).
-#[derive(IntoPyObject)]
-pub enum Width {
-    Name(&'static str),
-    Fixed(Real),
-}
-
-impl From<DragWidth> for Width {
-    fn from(width: DragWidth) -> Self {
-        match width {
-            DragWidth::Silhouette => Self::Name("silhouette"),
-            DragWidth::BoundingBox => Self::Name("bounding_box"),
-            DragWidth::Fixed(width) => Self::Fixed(width),
-        }
-    }
-}
-
-/// A drag width as an argument.
-pub struct WidthArg(pub DragWidth);
-
-impl<'py> FromPyObject<'_, 'py> for WidthArg {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if let Ok(width) = object.extract::<Real>() {
-            return Ok(Self(DragWidth::Fixed(width)));
-        }
-        match object.extract::<&str>() {
-            Ok("silhouette") => Ok(Self(DragWidth::Silhouette)),
-            Ok("bounding_box") => Ok(Self(DragWidth::BoundingBox)),
-            _ => Err(PyValueError::new_err(format!(
-                "drag_width is {}; allowed: 'silhouette', 'bounding_box', or a width in metres",
-                object.repr()?
-            ))),
-        }
-    }
-}
-
-/// A kind of body as an argument.
-pub struct KindArg(pub BodyKind);
-
-impl<'py> FromPyObject<'_, 'py> for KindArg {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        match object.extract::<&str>() {
-            Ok("dynamic") => Ok(Self(BodyKind::Dynamic)),
-            Ok("static") => Ok(Self(BodyKind::Static)),
-            Ok("kinematic") => Ok(Self(BodyKind::Kinematic)),
-            _ => Err(PyValueError::new_err(format!(
-                "kind is {}; allowed: 'dynamic', 'static', 'kinematic'",
-                object.repr()?
-            ))),
-        }
-    }
-}
-
-fn kind_name(kind: BodyKind) -> &'static str {
-    match kind {
-        BodyKind::Dynamic => "dynamic",
-        BodyKind::Static => "static",
-        BodyKind::Kinematic => "kinematic",
     }
 }
 

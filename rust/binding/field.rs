@@ -319,6 +319,7 @@ impl World {
     /// without it the forces do work. `velocity_dependent=False` saves evaluations where it is true.
     /// `internal=True` says that the forces act between the bodies and sum to zero, torques too.
     #[pyo3(signature = (field, *, potential=None, velocity_dependent=true, internal=false, name=None))]
+    #[allow(clippy::too_many_arguments, reason = "one keyword each in Python")]
     fn add_field<'py>(
         slf: &Bound<'py, Self>,
         field: &Bound<'py, PyAny>,

@@ -5,26 +5,27 @@
 
 use pyo3::prelude::*;
 
-pub mod add_body;
-pub mod arrays;
-pub mod body;
-pub mod catalogue;
-pub mod convert;
-pub mod drawing;
-pub mod error;
-pub mod field;
-pub mod law;
-pub mod observe;
-pub mod parts;
-pub mod record;
-pub mod schedule;
-pub mod shape;
-pub mod shapes;
-pub mod snapshot;
-pub mod stepper;
-pub mod stepping;
-pub mod vec2;
-pub mod world;
+mod add_body;
+mod arrays;
+mod body;
+mod catalogue;
+mod convert;
+mod drawing;
+mod error;
+mod field;
+mod law;
+mod observe;
+mod parts;
+mod record;
+mod schedule;
+mod shape;
+mod shapes;
+mod snapshot;
+mod stepper;
+mod stepping;
+mod vec2;
+mod words;
+mod world;
 
 /// The engine of the culbuto package. Import `culbuto` instead.
 #[pymodule]

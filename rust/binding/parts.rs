@@ -17,12 +17,14 @@ use crate::world::World;
 /// garbage collector, `__traverse__` sees zeros where the contents will be, and must look no further.
 pub struct Made(AtomicBool);
 
-impl Made {
+impl Default for Made {
     /// To be part of the contents.
-    pub fn new() -> Self {
+    fn default() -> Self {
         Self(AtomicBool::new(true))
     }
+}
 
+impl Made {
     /// Whether the contents are there.
     pub fn yes(&self) -> bool {
         self.0.load(Ordering::Relaxed)
@@ -59,7 +61,7 @@ impl<T: Named> Place<T> {
     /// A place that is yet to be given.
     pub fn new(world: &Bound<'_, World>) -> Self {
         Self {
-            made: Made::new(),
+            made: Made::default(),
             world: world.clone().unbind(),
             handle: OnceLock::new(),
             alive: AtomicBool::new(false),

@@ -1,4 +1,5 @@
 //! The shapes, one class each.
+#![allow(clippy::needless_pass_by_value, reason = "PyO3 hands PyRef by value")]
 
 use culbuto::Part;
 use culbuto::math::{self, Real};

@@ -66,9 +66,7 @@ impl Snapshot {
         slf
     }
 
-    fn __reduce__<'py>(
-        slf: &Bound<'py, Self>,
-    ) -> PyResult<(Bound<'py, PyAny>, (Bound<'py, PyBytes>, Vec<LawParts>))> {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Stored<'py>)> {
         let (py, own) = (slf.py(), slf.get());
         let data = own.kept.to_bytes().map_err(to_py)?;
         let laws = own.laws.iter().map(|law| law.get().parts(py)).collect();
@@ -89,6 +87,10 @@ impl Snapshot {
     }
 }
 
+/// What a pickle holds of a snapshot.
+type Stored<'py> = (Bound<'py, PyBytes>, Vec<LawParts>);
+
+/// Laws, and the engine's side of them.
 type Laws = (Vec<Py<Law>>, Vec<Arc<dyn ForceField>>);
 
 fn make_laws(py: Python<'_>, parts: Vec<LawParts>) -> PyResult<Laws> {

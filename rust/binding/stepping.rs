@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
+use culbuto::forces::BoxError;
 use culbuto::math::{Real, Vec2};
 use culbuto::world;
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods, PyUntypedArrayMethods};
@@ -147,6 +149,25 @@ impl<'py> IntoPyObject<'py> for Kept {
     }
 }
 
+/// Lets Python's signal handlers run now and then during a long run, and reports what they raise
+/// (`KeyboardInterrupt`).
+fn signals() -> impl FnMut() -> Result<(), BoxError> {
+    let (mut calls, mut last) = (0_u32, Instant::now());
+    move || {
+        calls = calls.wrapping_add(1);
+        if !calls.is_multiple_of(64) || last.elapsed() < Duration::from_millis(50) {
+            return Ok(());
+        }
+        last = Instant::now();
+        #[allow(
+            clippy::redundant_closure_for_method_calls,
+            reason = "the method is of one lifetime only"
+        )]
+        let checked = Python::attach(|py| py.check_signals());
+        Ok(checked?)
+    }
+}
+
 #[pymethods]
 impl World {
     /// Moves the world on by `steps` steps of `dt` (s), at a fixed step. Forces applied for the next step act in
@@ -158,7 +179,10 @@ impl World {
         if estimate {
             return self.work(py, |core| core.steps_with_estimate(dt, steps).map(drop));
         }
-        self.work(py, |core| core.steps(dt, steps))
+        if steps == 1 {
+            return self.work(py, |core| core.step(dt));
+        }
+        self.work(py, |core| core.steps_watched(dt, steps, &mut signals()))
     }
 
     /// Moves the world on by a duration (s), to a relative tolerance (1e-15 to 0.1), at the steps that asks for.

@@ -59,7 +59,7 @@ fn this_thread() -> usize {
 impl World {
     pub fn from_core(core: Core) -> Self {
         Self {
-            made: Made::new(),
+            made: Made::default(),
             core: Mutex::new(core),
             objects: Mutex::default(),
             worker: AtomicUsize::new(0),

@@ -115,6 +115,24 @@ def test_laws_of_a_file(file: Path) -> None:
     assert "1 of 1 fail" in failed.stdout
 
 
+def test_report_writes_rows_page_and_figure(tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    pytest.importorskip("jinja2")
+    call("report", "S1", "S18", "--quick", "--output", tmp_path)
+    found = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*.*")}
+    assert found == {"rows.csv", "rows.json", "index.html", "figures/thrown-ball.svg"}
+
+
+def test_report_without_the_extra_says_how_to_get_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # The package `culbuto.cli` has a command of the name of the module.
+    monkeypatch.setattr(sys.modules["culbuto.cli.report"], "find_spec", lambda _: None)
+    said = call("report", "S1", "--quick", "--output", tmp_path).stderr
+    assert "pip install 'culbuto[plot]'" in said
+    assert {path.name for path in tmp_path.iterdir()} == {"rows.csv", "rows.json"}
+
+
 def bad(**changes: Any) -> str:
     return json.dumps({**SPINNING, **changes})
 

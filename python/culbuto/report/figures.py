@@ -130,7 +130,7 @@ def scene_figures(study: Study) -> tuple[Figure, Figure]:
     """Error against time, and error against step, of one scene."""
     with mpl.rc_context(RC):
         time, order = (
-            Figure(figsize=size, layout="constrained") for size in ((4.6, 3.5), (3.5, 3.5))
+            Figure(figsize=size, layout="constrained") for size in ((4.3, 3.4), (3.3, 3.4))
         )
         plot_time(study, time.add_subplot(title="error against run time"))
         plot_order(study, order.add_subplot(title="error against step"))
@@ -141,7 +141,7 @@ def throw_panels(throw: Study) -> list[Figure]:
     """The panels of the first figure, each a figure of its own."""
     drawn = _throw_drawers(throw)
     with mpl.rc_context(RC):
-        figures = [Figure(figsize=(4.6, 3.0), layout="constrained") for _ in drawn]
+        figures = [Figure(figsize=(4.2, 2.9), layout="constrained") for _ in drawn]
         for figure, draw in zip(figures, drawn, strict=True):
             draw(figure.add_subplot())
     return figures

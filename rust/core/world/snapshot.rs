@@ -147,7 +147,8 @@ mod tests {
         world.add_body(BodyDef { velocity: vec2(1.0, 2.0), ..named }).unwrap();
         let bytes = world.snapshot().to_bytes().unwrap();
         let mut copy = Snapshot::from_bytes(&bytes, Vec::new()).unwrap().to_world();
-        (world.steps(0.1, 10).unwrap(), copy.steps(0.1, 10).unwrap());
+        world.steps(0.1, 10).unwrap();
+        copy.steps(0.1, 10).unwrap();
         assert_eq!(world.bodies().poses, copy.bodies().poses);
         assert_eq!(world.bodies().infos[1].def, copy.bodies().infos[1].def);
     }

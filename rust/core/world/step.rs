@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use crate::body::Bodies;
 use crate::error::{Error, Result, check};
-use crate::forces::{Forces, Ledger};
+use crate::forces::{BoxError, Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span};
@@ -36,6 +36,26 @@ impl World {
     pub fn steps(&mut self, dt: Real, count: u32) -> Result<()> {
         check::positive("dt", dt)?;
         self.attempt(|world| (0..count).try_for_each(|_| world.tick(dt)))
+    }
+
+    /// The same, asking `watch` after each step whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`World::step`], and [`Error::Interrupted`] with what `watch` said; the world is then as it
+    /// was before the first of the steps.
+    pub fn steps_watched(
+        &mut self,
+        dt: Real,
+        count: u32,
+        watch: &mut dyn FnMut() -> std::result::Result<(), BoxError>,
+    ) -> Result<()> {
+        check::positive("dt", dt)?;
+        self.attempt(|world| {
+            (0..count).try_for_each(|_| {
+                world.tick(dt)?;
+                watch().map_err(|source| Error::Interrupted { source })
+            })
+        })
     }
 
     /// One step: a table of contents.
