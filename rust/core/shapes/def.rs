@@ -92,6 +92,7 @@ pub enum ShapeDef {
     /// A thin circular wire.
     Arc {
         /// Of its circle.
+        #[serde(default)]
         #[schemars(with = "[Real; 2]")]
         center: Vec2,
         /// Above 0.

@@ -6,7 +6,7 @@ use serde_json::{Map, Value};
 
 use super::{SCENE_VERSION, SceneFile, SceneOscillating, wrong};
 use crate::body::BodyDef;
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// The schema, too, says which version there is.
 pub fn known_version(schema: &mut Schema) {
@@ -25,9 +25,13 @@ struct Head {
 }
 
 pub fn from_json(json: &str) -> Result<SceneFile> {
+    let json = json.trim_start_matches('\u{feff}');
+    if !json.trim_start().starts_with('{') {
+        return Err(wrong(".", "a scene file is a JSON object: { … }"));
+    }
     let head: Head = parse(json)?;
     match head.culbuto {
-        Some(version) if version == Value::from(SCENE_VERSION) => parse(json),
+        Some(version) if version == SCENE_VERSION => parse(json),
         Some(version) => {
             Err(wrong("culbuto", format!("version {version} is not known; allowed: 1")))
         }
@@ -37,10 +41,18 @@ pub fn from_json(json: &str) -> Result<SceneFile> {
 
 fn parse<'de, T: Deserialize<'de>>(json: &'de str) -> Result<T> {
     let mut deserializer = serde_json::Deserializer::from_str(json);
-    let value = serde_path_to_error::deserialize(&mut deserializer)
-        .map_err(|error| wrong(error.path().to_string(), error.inner()))?;
+    let value =
+        serde_path_to_error::deserialize(&mut deserializer).map_err(|error| describe(&error))?;
     deserializer.end().map_err(|error| wrong(".", error))?;
     Ok(value)
+}
+
+/// Where a value is wrong, and how, in the words of scene files.
+fn describe(error: &serde_path_to_error::Error<serde_json::Error>) -> Error {
+    let path = error.path().to_string();
+    let message = error.inner().to_string().replace("a matrix array", "two numbers");
+    // "?" stands for a place that text which is no JSON does not have.
+    wrong(if path.contains('?') { "." } else { &path }, message)
 }
 
 pub fn to_json(scene: &SceneFile) -> String {
@@ -122,15 +134,16 @@ fn leave_out_of_shape(part: &mut Map<String, Value>) {
 fn write(value: &Value, indent: usize, column: usize, out: &mut String) {
     const WIDTH: usize = 100;
     let short = spaced(value);
-    let is_list_of_objects =
-        value.as_array().is_some_and(|list| list.first().is_some_and(Value::is_object));
     let fits = column + short.chars().count() < WIDTH;
-    if indent > 0 && fits && !is_list_of_objects {
+    // Of the lists of objects that a scene is made of, each object begins a line.
+    let is_part =
+        indent == 1 && value.as_array().is_some_and(|list| list.iter().any(Value::is_object));
+    if indent > 0 && fits && !is_part {
         out.push_str(&short);
         return;
     }
     let inner = "  ".repeat(indent + 1);
-    let mut line = |lead: &str, value: &Value, last: bool, out: &mut String| {
+    let line = |lead: &str, value: &Value, last: bool, out: &mut String| {
         out.push_str(&inner);
         out.push_str(lead);
         write(value, indent + 1, inner.len() + lead.chars().count(), out);

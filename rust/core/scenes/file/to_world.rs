@@ -19,7 +19,7 @@ impl SceneFile {
         }
         let mut world = World::default();
         self.set_up(&mut world)?;
-        self.check_run()?;
+        self.check_what_no_world_knows()?;
         let mut bodies = Vec::with_capacity(self.bodies.len());
         for (i, body) in self.bodies.iter().enumerate() {
             bodies.push(self.add_body(&mut world, i, body)?);
@@ -40,6 +40,7 @@ impl SceneFile {
     fn set_up(&self, world: &mut World) -> Result<()> {
         let settings = &self.settings;
         world.set_gravity(self.gravity).map_err(at("."))?;
+        check::not_negative("density", self.air.density).map_err(at("air"))?;
         world.set_air(self.air).map_err(at("air"))?;
         world.set_method(&settings.method).map_err(at("settings"))?;
         world.set_substeps(settings.substeps).map_err(at("settings"))?;
@@ -47,7 +48,11 @@ impl SceneFile {
         world.set_clock(self.time, self.time_remainder).map_err(at("."))
     }
 
-    fn check_run(&self) -> Result<()> {
+    fn check_what_no_world_knows(&self) -> Result<()> {
+        for (name, material) in &self.materials {
+            let density = material.density.unwrap_or(0.0);
+            check::not_negative("density", density).map_err(at(&format!("materials.{name}")))?;
+        }
         check::positive("dt", self.run.dt).map_err(at("run"))?;
         check::not_negative("duration", self.run.duration).map_err(at("run"))?;
         Ok(())
@@ -86,9 +91,6 @@ impl SceneFile {
             let message = format!("{name:?} is not in `materials`; there are: {known}");
             return Err(wrong(format!("{path}.material"), message));
         };
-        if let Some(density) = material.density {
-            check::not_negative("density", density).map_err(at(&format!("materials.{name}")))?;
-        }
         Ok(material.density)
     }
 
@@ -162,7 +164,8 @@ impl SceneSchedule {
             let force = self.forces.get(k).copied().unwrap_or(Vec2::zeros());
             Wrench::new(force, self.torques.get(k).copied().unwrap_or(0.0))
         };
-        ForceSchedule::new(times, (0..spans).map(wrench).collect()).map_err(at(path))
+        ForceSchedule::new(times, (0..spans).map(wrench).collect())
+            .map_err(|error| wrong(path, error))
     }
 }
 
