@@ -121,7 +121,8 @@ def standalone(figure: Figure, title: str) -> str:
         f"@media (prefers-color-scheme: dark) {{ svg {{ {variables(dark=True)} }} }}</style>"
         '<rect width="100%" height="100%" rx="6" style="fill: var(--paper)"/>'
     )
-    return re.sub(r"(<svg[^>]*>)", lambda match: match[1] + style, _svg(figure), count=1)
+    text = re.sub(r"<!DOCTYPE[^>]*>\n?", "", _svg(figure))
+    return re.sub(r"(<svg[^>]*>)", lambda match: match[1] + style, text, count=1)
 
 
 def _svg(figure: Figure) -> str:
