@@ -6,6 +6,7 @@ Colours are of middle lightness on no background, so that they read on white and
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape, quoteattr
 
@@ -33,31 +34,32 @@ MOST_PATH_POINTS = 1000
 class Sketch:
     """What is drawn of a body at a moment, in world coordinates (m).
 
-    `rings` are its outlines, closed where the first point is the last. `mark` goes from the centre
-    of mass in the direction of the body's x axis; it has no length where the body has no shape.
+    `shapes` holds the outlines of each of its shapes, closed where the first point is the last.
+    `mark` goes from the centre of mass in the direction of the body's x axis; it has no length
+    where the body has no shape.
     """
 
     name: str
     kind: str
-    rings: tuple[Points, ...]
+    shapes: tuple[tuple[Points, ...], ...]
     mark: Points
 
     @classmethod
     def of(cls, body: Body, position: Sequence[float], angle: float) -> Sketch:
         """A body, placed as given."""
-        local = [ring for shape in body.shapes for ring in shape.outline()]
+        local = [shape.outline() for shape in body.shapes]
+        extents = [np.ptp(ring, axis=0).max() for rings in local for ring in rings]
         cos, sin = np.cos(angle), np.sin(angle)
         turn = np.array([[cos, sin], [-sin, cos]])
         center = np.asarray(body.local_center)
-        reach = 0.5 * min((np.ptp(ring, axis=0).max() for ring in local), default=0.0)
-        mark = np.array([center, center + np.array([0.6 * reach, 0.0])])
-        rings = tuple(ring @ turn + position for ring in local)
-        return cls(body.name or "", body.kind, rings, mark @ turn + position)
+        mark = np.array([center, center + np.array([0.3 * min(extents, default=0.0), 0.0])])
+        placed = tuple(tuple(ring @ turn + position for ring in rings) for rings in local)
+        return cls(body.name or "", body.kind, placed, mark @ turn + position)
 
     @property
     def points(self) -> Points:
         """All of its points."""
-        return np.concatenate([*self.rings, self.mark[:1]])
+        return np.concatenate([*chain(*self.shapes), self.mark[:1]])
 
 
 def sketches(world: World) -> list[Sketch]:
@@ -114,7 +116,7 @@ def _view(drawn: Iterable[Sketch], paths: Sequence[Points]) -> Points:
     low, high = every.min(axis=0), every.max(axis=0)
     if moving and still:
         points = np.concatenate(moving)
-        reach = max(np.ptp(points, axis=0).max(), 1e-12)
+        reach = max(0.3 * np.ptp(points, axis=0).max(), 1e-12)
         low = np.maximum(low, points.min(axis=0) - reach)
         high = np.minimum(high, points.max(axis=0) + reach)
     size = (high - low).max()
@@ -122,6 +124,11 @@ def _view(drawn: Iterable[Sketch], paths: Sequence[Points]) -> Points:
     # Not thinner than an eighth of its length.
     spare = np.maximum(0.0, size / 8 - (high - low)) / 2
     return np.array([low - margin - spare, high + margin + spare])
+
+
+def _closed(rings: Sequence[Points]) -> bool:
+    """Whether the outlines bound an area; those of wires do not."""
+    return all(np.array_equal(ring[0], ring[-1]) for ring in rings)
 
 
 class _Canvas:
@@ -139,23 +146,21 @@ class _Canvas:
         return " ".join(f"{x:.2f},{y:.2f}" for x, y in zip(xs, ys, strict=True))
 
     def _d(self, ring: Points) -> str:
-        closed = len(ring) > 2 and np.array_equal(ring[0], ring[-1])
-        return f"M{self._steps(ring[:-1])}Z" if closed else f"M{self._steps(ring)}"
+        return f"M{self._steps(ring[:-1])}Z" if _closed([ring]) else f"M{self._steps(ring)}"
 
     def body(self, sketch: Sketch, *, faint: bool = False) -> str:
         """A body: its outlines filled, a dot at the centre of mass, a line that turns with it."""
         colour = COLOURS[sketch.kind]
-        outline = "".join(self._d(ring) for ring in sketch.rings)
-        filled = all(self._d(ring).endswith("Z") for ring in sketch.rings)
-        fill = f'fill="{colour}" fill-opacity="0.22"' if filled else 'fill="none"'
         x, y = self._steps(sketch.mark[:1]).split(",")
-        radius = DOT if not sketch.rings else 1.8
+        radius = DOT if not sketch.shapes else 1.8
         parts = [f"<title>{escape(sketch.name)}</title>"] if sketch.name else []
-        if outline:
+        for rings in sketch.shapes:
+            fill = f'fill="{colour}" fill-opacity="0.22"' if _closed(rings) else 'fill="none"'
+            outline = "".join(map(self._d, rings))
             parts.append(f'<path d="{outline}" {fill} fill-rule="evenodd"/>')
-        if sketch.kind != "static" and sketch.rings:
+        if sketch.kind != "static" and sketch.shapes:
             parts.append(f'<path d="M{self._steps(sketch.mark)}"/>')
-        if sketch.kind != "static" or not sketch.rings:
+        if sketch.kind != "static" or not sketch.shapes:
             parts.append(f'<circle cx="{x}" cy="{y}" r="{radius}" fill="{colour}" stroke="none"/>')
         opacity = ' opacity="0.45"' if faint else ""
         kind = quoteattr(f"body {sketch.kind}")
@@ -186,10 +191,9 @@ def draw(world: World, ax: Axes, **style: Any) -> Axes:  # noqa: ANN401 — what
     now = sketches(world)
     for sketch in now:
         colour = COLOURS[sketch.kind]
-        closed = all(np.array_equal(ring[0], ring[-1]) for ring in sketch.rings)
-        look = {"edgecolor": colour, "facecolor": colour + "38" if closed else "none"}
-        if sketch.rings:
-            path = Path.make_compound_path(*(Path(ring) for ring in sketch.rings))
+        for rings in sketch.shapes:
+            look = {"edgecolor": colour, "facecolor": colour + "38" if _closed(rings) else "none"}
+            path = Path.make_compound_path(*map(Path, rings))
             ax.add_patch(PathPatch(path, label=sketch.name, **{**look, **style}))
         if sketch.kind != "static":
             ax.plot(*sketch.mark.T, color=colour, linewidth=1.2)

@@ -84,6 +84,6 @@ def test_draws_on_axes() -> None:
     ax = Figure().add_subplot()
     world = a_world()
     assert world.draw(ax, linewidth=2) is ax
-    assert len(ax.patches) == sum(bool(body.shapes) for body in world.bodies)
+    assert len(ax.patches) == sum(len(body.shapes) for body in world.bodies)
     assert {patch.get_linewidth() for patch in ax.patches} == {2}
     assert ax.get_aspect() == 1

@@ -98,7 +98,7 @@ def _print_report(recording: Recording) -> None:
     report: StepReport = recording.report
     kept = len(recording.trajectory.times)
     parts = [
-        f"{report.duration:.6g} s in {report.steps} steps",
+        f"{report.duration:.6g} s in {report.steps} steps of the method",
         f"{report.evaluations} force evaluations",
         f"{report.rejected} steps rejected" if report.rejected else "",
         f"smallest step {report.smallest_step:.3g} s" if report.evaluations else "",
@@ -125,7 +125,7 @@ def _print_laws(before: tuple[Energy, Vec2, float], after: tuple[Energy, Vec2, f
         ("angular momentum about the centre of mass (kg·m²/s)", spin0, spin1),
     ]
     for name, start, end in quantities:
-        rows.add_row(name, f"{start:.9g}", f"{end:.9g}", number(end - start))
+        rows.add_row(name, f"{start + 0.0:.9g}", f"{end + 0.0:.9g}", number(end - start))
     console().print(rows)
 
 

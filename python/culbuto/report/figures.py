@@ -28,7 +28,7 @@ LEAST = 1e-17  # what is exact to the last bit is drawn there
 MOST = 10.0  # beyond, nothing is drawn
 ROUNDING = 1e-15
 SMALL = 8  # points
-# Of marks (points): explicit Euler looks out from under its twin, whose errors are the same in size.
+# Of marks (points): explicit Euler looks out from under its twin, whose errors have the same size.
 SIZES = {"closed_form": 11, "explicit_euler": 5.8}
 RAISED = str.maketrans("123456789", "¹²³⁴⁵⁶⁷⁸⁹")
 UNKNOWN = Look("", MUTED.light, MUTED.dark, ".", "")
