@@ -1203,12 +1203,11 @@ def verify_laws(
 
 def study(
     name: str,
-    steps: Sequence[int],
-    tolerances: Sequence[float],
+    ladders: tuple[Sequence[int], Sequence[float]],
     methods: Sequence[str],
     repeats: int,
 ) -> str:
-    """Rows of error against run time; `steps` are numbers of steps a run."""
+    """Rows of error against run time, at numbers of steps a run and to tolerances."""
 
 def measured_order(name: str, method: str) -> str:
     """The order of a method on a scene."""

@@ -160,7 +160,7 @@ def study(
     if repeats < 1:
         message = f"repeats is {repeats}; allowed: 1 or more"
         raise ValueError(message)
-    rows = json.loads(_native.study(entry.name, counts, limits, list(methods), repeats))
+    rows = json.loads(_native.study(entry.name, (counts, limits), list(methods), repeats))
     return Study(entry, tuple(map(Row.of, rows)))
 
 

@@ -1,6 +1,8 @@
 //! The catalogue of scenes, and the report's measurements. They reach Python as JSON, which
 //! `culbuto.catalogue` and `culbuto.study` read into classes.
 
+#![allow(clippy::needless_pass_by_value, reason = "as PyO3 hands them")]
+
 use culbuto::methods;
 use culbuto::report::{self, Law, Limits, Order, Study};
 use culbuto::scenes::{Answer, CATALOGUE, Motion, Scene, SceneFile, scene};
@@ -63,16 +65,16 @@ pub fn verify(py: Python<'_>, name: &str) -> PyResult<String> {
     json_of(py, || Ok(json!(report::verify(scene(name)?)?)))
 }
 
-/// Rows of error against run time. `steps` are numbers of steps a run; no methods: all.
+/// Rows of error against run time, at numbers of steps a run and to tolerances; no methods: all.
 #[pyfunction]
 pub fn study(
     py: Python<'_>,
     name: &str,
-    steps: Vec<u32>,
-    tolerances: Vec<f64>,
+    ladders: (Vec<u32>, Vec<f64>),
     methods: Vec<String>,
     repeats: u32,
 ) -> PyResult<String> {
+    let (steps, tolerances) = ladders;
     let what = Study { steps, tolerances, methods, repeats };
     json_of(py, || Ok(json!(report::study(scene(name)?, &what)?)))
 }
