@@ -232,27 +232,24 @@ fn handles_of_what_is_gone_are_errors() {
 
 #[test]
 fn a_motion_that_overflows_is_refused_as_a_whole() {
-    for huge in [1e300, 1e308] {
-        refuses("no longer finite", |world, body| {
-            world.body_mut(body)?.set_drag(0.0, DragWidth::Silhouette)?;
-            let before = bytes(world);
-            world.set_gravity(vec2(0.0, huge))?;
-            let failed = world.steps(1e8, 10);
-            world.set_gravity(vec2(0.0, -9.81))?;
-            assert_eq!(bytes(world), before);
-            world.body_mut(body)?.set_drag(0.4, DragWidth::Silhouette)?;
-            failed
-        });
+    for method in culbuto::methods::REGISTRY.iter().map(|method| method.facts().name) {
+        let (mut world, _) = world();
+        world.set_method(method).unwrap();
+        world.set_gravity(vec2(0.0, 1e300)).unwrap();
+        let before = bytes(&world);
+        // Drag may hold the motion finite for long, or the solution of an implicit kick may fail first.
+        assert!(world.steps(1e8, 10).is_err(), "{method}");
+        assert_eq!(bytes(&world), before, "{method}");
     }
-    // The third of five steps fails; the first two are taken back, and the time with them.
+    // The fourth of six steps fails; the first three are taken back, and the time with them.
     let mut world = World::default();
     world.set_gravity(vec2(0.0, 0.0)).unwrap();
-    world.add_body(BodyDef { velocity: vec2(6e307, 0.0), ..BodyDef::point(1.0) }).unwrap();
+    world.add_body(BodyDef { velocity: vec2(4e307, 0.0), ..BodyDef::point(1.0) }).unwrap();
     let before = bytes(&world);
-    let error = world.steps(1.0, 5).unwrap_err();
+    let error = world.steps(1.0, 6).unwrap_err();
     assert!(matches!(error, Error::NotFinite { body: 0, .. }), "{error}");
     assert_eq!(bytes(&world), before);
-    world.steps(1.0, 2).unwrap();
+    world.steps(1.0, 3).unwrap();
 }
 
 #[test]

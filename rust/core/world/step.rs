@@ -15,6 +15,8 @@ use crate::world::{Clock, State, StepReport, World};
 pub(super) struct Backup {
     poses: Vec<Pose>,
     twists: Vec<Twist>,
+    /// Forces for the next step; empty where there are none.
+    applied: Vec<Wrench>,
     clock: Clock,
     ledger: Ledger,
 }
@@ -85,11 +87,11 @@ impl World {
 
     /// Runs `work`; if it fails, the world is put back as it was.
     pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
-        self.scratch.backup.save(&self.state);
+        self.scratch.backup.save(&self.state, self.applied);
         let report = std::mem::take(&mut self.report);
         let result = work(self);
         if result.is_err() {
-            self.scratch.backup.restore(&mut self.state);
+            self.applied = self.scratch.backup.restore(&mut self.state);
             self.report = report;
         }
         result
@@ -239,16 +241,26 @@ fn is_finite(bodies: &Bodies, i: usize) -> bool {
 }
 
 impl Backup {
-    fn save(&mut self, state: &State) {
+    fn save(&mut self, state: &State, applied: bool) {
+        self.applied.clear();
+        if applied {
+            self.applied.extend_from_slice(&state.bodies.applied);
+        }
         self.poses.clone_from(&state.bodies.poses);
         self.twists.clone_from(&state.bodies.twists);
         (self.clock, self.ledger) = (state.clock, state.ledger);
     }
 
-    fn restore(&self, state: &mut State) {
+    /// Puts the state back, and says whether forces wait for the next step.
+    fn restore(&self, state: &mut State) -> bool {
+        let applied = !self.applied.is_empty();
+        if applied {
+            state.bodies.applied.clone_from(&self.applied);
+        }
         state.bodies.poses.clone_from(&self.poses);
         state.bodies.twists.clone_from(&self.twists);
         (state.clock, state.ledger) = (self.clock, self.ledger);
+        applied
     }
 }
 
