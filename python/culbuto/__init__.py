@@ -65,6 +65,8 @@ from culbuto._native import (
     __version__,
     methods,
 )
+from culbuto.catalogue import Laws, Limits, Scene, Verdict, scene, scenes, verify, verify_laws
+from culbuto.study import Row, Study, study
 
 __all__ = [
     "Arc",
@@ -78,11 +80,15 @@ __all__ = [
     "Facts",
     "Field",
     "Frame",
+    "Laws",
+    "Limits",
     "MassProperties",
     "Oscillating",
     "Polygon",
     "RegularPolygon",
     "RoundedPolygon",
+    "Row",
+    "Scene",
     "SceneFileError",
     "Schedule",
     "Segment",
@@ -93,9 +99,16 @@ __all__ = [
     "State",
     "StepReport",
     "Stepper",
+    "Study",
     "Trajectory",
     "Vec2",
+    "Verdict",
     "World",
     "__version__",
     "methods",
+    "scene",
+    "scenes",
+    "study",
+    "verify",
+    "verify_laws",
 ]

@@ -20,6 +20,7 @@ from typing import (
 )
 
 import numpy as np
+from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from typing_extensions import disjoint_base
 
@@ -54,7 +55,17 @@ __all__ = [
     "Vec2",
     "World",
     "__version__",
+    "catalogue",
+    "exact_motion",
+    "measured_order",
     "methods",
+    "open_scene",
+    "read_scene",
+    "scene_error",
+    "study",
+    "thrown_ball",
+    "verify",
+    "verify_laws",
 ]
 
 __version__: Final[str]
@@ -1163,6 +1174,54 @@ class World:
     def __copy__(self) -> World: ...
     def __reduce__(self) -> tuple[type[World], tuple[()], tuple[Any, ...]]: ...
     def __setstate__(self, state: tuple[Any, ...]) -> None: ...
+    def _repr_svg_(self) -> str:
+        """The world as it is, as an SVG: what a notebook shows of it."""
+    def draw(self, ax: Axes, **style: object) -> Axes:
+        """Draws the world as it is on matplotlib axes, in metres; `style` goes to the patches."""
 
 def methods() -> list[Facts]:
     """Facts of every method, the default first."""
+
+# The catalogue and the report, as JSON: `culbuto.catalogue` and `culbuto.study` make classes of it.
+
+def catalogue() -> str:
+    """Every scene of the catalogue."""
+
+def open_scene(name: str) -> World:
+    """The world of a scene of the catalogue."""
+
+def read_scene(path: str) -> tuple[World, str]:
+    """The world of a scene file, and its name, about, dt and duration."""
+
+def verify(name: str) -> str:
+    """A scene against its answer."""
+
+def verify_laws(
+    world: World, method: str, dt: float, duration: float, limits: Sequence[float]
+) -> str:
+    """The conservation laws on a run of a copy of a world."""
+
+def study(
+    name: str,
+    ladders: tuple[Sequence[int], Sequence[float]],
+    methods: Sequence[str],
+    repeats: int,
+) -> str:
+    """Rows of error against run time, at numbers of steps a run and to tolerances."""
+
+def measured_order(name: str, method: str) -> str:
+    """The order of a method on a scene."""
+
+def thrown_ball(methods: Sequence[str], ticks: Sequence[int]) -> str:
+    """Paths of a thrown ball."""
+
+def exact_motion(name: str, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Positions and angles (k, n, 3) of a scene's bodies at times (s), as its answer has them."""
+
+def scene_error(
+    name: str,
+    times: NDArray[np.float64],
+    positions: NDArray[np.float64],
+    angles: NDArray[np.float64],
+) -> float:
+    """Largest error of a recorded motion of a scene, as the report states it."""

@@ -8,7 +8,9 @@ use pyo3::prelude::*;
 mod add_body;
 mod arrays;
 mod body;
+mod catalogue;
 mod convert;
+mod drawing;
 mod error;
 mod field;
 mod law;
@@ -31,6 +33,11 @@ mod world;
 mod culbuto_native {
     #[pymodule_export]
     use crate::body::Body;
+    #[pymodule_export]
+    use crate::catalogue::{
+        catalogue, exact_motion, measured_order, open_scene, read_scene, scene_error, study,
+        thrown_ball, verify, verify_laws,
+    };
     #[pymodule_export]
     use crate::error::{SceneFileError, SimulationError, StaleHandleError};
     #[pymodule_export]

@@ -178,7 +178,11 @@ impl Objects {
 
 impl World {
     /// A world around a core.
-    fn assembled<'py>(py: Python<'py>, core: Core, laws: &[Py<Law>]) -> PyResult<Bound<'py, Self>> {
+    pub fn assembled<'py>(
+        py: Python<'py>,
+        core: Core,
+        laws: &[Py<Law>],
+    ) -> PyResult<Bound<'py, Self>> {
         let kept = core.snapshot();
         let world = Bound::new(py, Self::from_core(core))?;
         let objects = Objects::new(&world, &kept, laws)?;
