@@ -66,7 +66,7 @@ fn ladder(make: impl Fn() -> World, time: Real, error: impl Fn(&World) -> Real) 
 /// of the answer.
 fn finest_order(errors: &[Real]) -> Real {
     let usable = |pair: &&[Real]| pair[0] < 1e-2 && pair[1] > 1e-12;
-    errors.windows(2).filter(usable).next_back().map_or(Real::NAN, |pair| order(pair[0], pair[1]))
+    errors.windows(2).rfind(usable).map_or(Real::NAN, |pair| order(pair[0], pair[1]))
 }
 
 fn check_orders(make: impl Fn(&str) -> World, time: Real, error: impl Fn(&World) -> Real) {
