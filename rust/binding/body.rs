@@ -287,7 +287,7 @@ impl Body {
     /// frame stays where it is.
     #[getter]
     fn local_center(&self, py: Python<'_>) -> PyResult<Vec2> {
-        self.read(py, |body| Vec2(body.info().local_center))
+        self.read(py, |body| Vec2(body.local_center()))
     }
 
     #[setter]
