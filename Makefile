@@ -7,7 +7,7 @@
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help report test check bench docs package test-deep clean
+.PHONY: help report test check bench count docs package test-deep clean
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
@@ -41,6 +41,10 @@ check: .venv/tools ## Formatting, lints and types
 
 bench: ## Measure speed
 	cargo bench --workspace --locked
+
+count: ## Count instructions a step (needs valgrind)
+	cargo build --release --example instructions --locked
+	$(PYTHON) benches/count.py $(CARGO_TARGET_DIR)/release/examples/instructions
 
 docs: ## Documentation of the crate, in target/doc
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked

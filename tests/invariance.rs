@@ -61,7 +61,7 @@ impl Rod {
             center: vec2(mirror * a, 0.1 * b),
         };
         // The width of a turning polygon has kinks, where the error of a step is hard to tell: `advance`
-        // may then be off by a thousand times its tolerance. What is asked here is more.
+        // may then be off by 1e4 times its tolerance. What is asked here is more.
         let drag_width =
             if let Mode::Step(_) = mode { DragWidth::Silhouette } else { DragWidth::Fixed(b) };
         let parts = [Shape::rectangle(a, b).unwrap(), Shape::new(end).unwrap()];

@@ -324,8 +324,10 @@ fn symplectic_methods_keep_the_energy_bounded() {
             (0..5000).map(after).fold(0.0, Real::max)
         };
         let first = window();
-        let rest = (0..9).map(|_| window());
-        (first, rest.last().unwrap())
+        (0..8).for_each(|_| {
+            window();
+        });
+        (first, window())
     };
     for facts in all_facts().filter(|facts| facts.symplectic) {
         let (first, last) = windows(facts.name);

@@ -13,22 +13,102 @@ Vec2(4.0, 4.0)
 >>> velocity == (x, y)
 True
 
+A world holds bodies, fields of force and schedules, and moves them:
+
+>>> world = cb.World(gravity=(0, -9.81))
+>>> ball = world.add_body(cb.Circle(0.1), velocity=(12, 9))
+>>> world.step(1 / 60, steps=120)
+>>> round(ball.position.x, 12), round(ball.position.y, 12)
+(24.0, -1.62)
+>>> world.positions.shape
+(1, 2)
+>>> report = world.advance(1.0, tolerance=1e-9)  # a second to a stated error
+>>> report.estimate
+0.0
+>>> pull = world.add_field(lambda state: -0.5 * state.positions, name="pull")
+>>> world.step(1 / 60)
+
 A bad number or shape is a `ValueError`; what was removed from its world, a `StaleHandleError`; a
 motion that cannot go on, a `SimulationError`.
 """
 
 from culbuto._native import (
+    Arc,
+    Attraction,
+    Body,
+    Box,
+    Capsule,
+    Central,
+    Circle,
+    Energy,
+    Facts,
+    Field,
+    Frame,
+    MassProperties,
+    Oscillating,
+    Polygon,
+    RegularPolygon,
+    RoundedPolygon,
     SceneFileError,
+    Schedule,
+    Segment,
+    Shape,
     SimulationError,
+    Snapshot,
     StaleHandleError,
+    State,
+    Stepper,
+    StepReport,
+    Trajectory,
     Vec2,
+    World,
     __version__,
+    methods,
 )
+from culbuto.catalogue import Laws, Limits, Scene, Verdict, scene, scenes, verify, verify_laws
+from culbuto.study import Row, Study, study
 
 __all__ = [
+    "Arc",
+    "Attraction",
+    "Body",
+    "Box",
+    "Capsule",
+    "Central",
+    "Circle",
+    "Energy",
+    "Facts",
+    "Field",
+    "Frame",
+    "Laws",
+    "Limits",
+    "MassProperties",
+    "Oscillating",
+    "Polygon",
+    "RegularPolygon",
+    "RoundedPolygon",
+    "Row",
+    "Scene",
     "SceneFileError",
+    "Schedule",
+    "Segment",
+    "Shape",
     "SimulationError",
+    "Snapshot",
     "StaleHandleError",
+    "State",
+    "StepReport",
+    "Stepper",
+    "Study",
+    "Trajectory",
     "Vec2",
+    "Verdict",
+    "World",
     "__version__",
+    "methods",
+    "scene",
+    "scenes",
+    "study",
+    "verify",
+    "verify_laws",
 ]

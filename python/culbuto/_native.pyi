@@ -1,16 +1,86 @@
-from collections.abc import Iterator, Sequence
-from typing import Any, ClassVar, Final, NoReturn, SupportsFloat, SupportsIndex, TypeAlias, final
+"""The engine. Import `culbuto` instead.
+
+Quantities are in SI units, angles in radians. Vectors are given as a `Vec2`, a tuple or anything
+of two numbers, arrays as anything NumPy makes an array of floats of. A number or a shape that is
+not allowed is a `ValueError`, what was removed a `StaleHandleError`; a call that fails leaves the
+world as it was.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import (
+    Any,
+    ClassVar,
+    Final,
+    Literal,
+    NoReturn,
+    SupportsFloat,
+    SupportsIndex,
+    TypeAlias,
+    final,
+)
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike, DTypeLike, NDArray
+from typing_extensions import disjoint_base
 
-__all__ = ["SceneFileError", "SimulationError", "StaleHandleError", "Vec2", "__version__"]
+__all__ = [
+    "Arc",
+    "Attraction",
+    "Body",
+    "Box",
+    "Capsule",
+    "Central",
+    "Circle",
+    "Energy",
+    "Facts",
+    "Field",
+    "Frame",
+    "MassProperties",
+    "Oscillating",
+    "Polygon",
+    "RegularPolygon",
+    "RoundedPolygon",
+    "SceneFileError",
+    "Schedule",
+    "Segment",
+    "Shape",
+    "SimulationError",
+    "Snapshot",
+    "StaleHandleError",
+    "State",
+    "StepReport",
+    "Stepper",
+    "Trajectory",
+    "Vec2",
+    "World",
+    "__version__",
+    "catalogue",
+    "exact_motion",
+    "measured_order",
+    "methods",
+    "open_scene",
+    "read_scene",
+    "scene_error",
+    "study",
+    "thrown_ball",
+    "verify",
+    "verify_laws",
+]
 
 __version__: Final[str]
 
 _Float: TypeAlias = SupportsFloat | SupportsIndex
 _Operand: TypeAlias = Vec2 | tuple[_Float, _Float]
 _Vec2Arg: TypeAlias = Vec2 | Sequence[_Float] | NDArray[Any]
+_Array: TypeAlias = NDArray[np.float64]
+_Kind: TypeAlias = Literal["dynamic", "static", "kinematic"]
+_Width: TypeAlias = Literal["silhouette", "bounding_box"] | float
+_Column: TypeAlias = Literal[
+    "positions", "angles", "velocities", "angular_velocities", "forces", "torques"
+]
+_Law: TypeAlias = Callable[[State], ArrayLike | tuple[ArrayLike, ArrayLike]]
+_Potential: TypeAlias = Callable[[State], float]
 
 class SceneFileError(ValueError): ...
 class SimulationError(RuntimeError): ...
@@ -54,3 +124,1104 @@ class Vec2:
         self, dtype: DTypeLike | None = None, copy: bool | None = None
     ) -> NDArray[np.float64]: ...
     def __reduce__(self) -> tuple[type[Vec2], tuple[float, float]]: ...
+
+@disjoint_base
+class Shape:
+    """Any shape: immutable, in the frame of the body it belongs to (lengths in m, angles in rad).
+
+    Shapes are values: equal if they have the same kind, numbers and density.
+    """
+
+    @property
+    def density(self) -> float | None:
+        """Mass per area (kg/m²), per length of a wire (kg/m); None: the body's."""
+    @property
+    def area(self) -> float:
+        """Area (m²), 0 for wires."""
+    @property
+    def perimeter(self) -> float:
+        """Length of the boundary, holes included; the length of a wire (m)."""
+    @property
+    def measure(self) -> float:
+        """What density multiplies: the area (m²), or the length of a wire (m)."""
+    @property
+    def centroid(self) -> Vec2:
+        """Centroid (m)."""
+    @property
+    def second_moment(self) -> float:
+        """∫ r² about the centroid for unit density (m⁴; m³ for wires)."""
+    @property
+    def bounds(self) -> tuple[Vec2, Vec2]:
+        """Lower left and upper right corner of the smallest box along the axes (m)."""
+    @property
+    def convex_pieces(self) -> list[_Array]:
+        """Convex polygons that cover the shape without overlap, each (n, 2), counter-clockwise (m).
+
+        Of a rounded polygon its core; none for circles, capsules and wires.
+        """
+    def contains(self, point: _Vec2Arg) -> bool:
+        """Whether a point (m) belongs to the shape, border included. Wires hold no point."""
+    def projection(self, direction: _Vec2Arg) -> tuple[float, float]:
+        """Least and greatest coordinate along a direction (m); its length does not count."""
+    def projected_width(self, direction: _Vec2Arg) -> float:
+        """Extent along a direction (m)."""
+    def mass_properties(self, density: float) -> MassProperties:
+        """Mass, centre and inertia for a density in kg/m², or in kg/m for wires."""
+    def outline(self, max_angle: float = 0.1) -> list[_Array]:
+        """Polylines to draw, each (n, 2) (m): outline and holes, closed, or the wire.
+
+        Arcs are drawn through points at most `max_angle` (rad) apart.
+        """
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+    def __copy__(self) -> Shape: ...
+    def __deepcopy__(self, _memo: object) -> Shape: ...
+    def __getnewargs_ex__(self) -> tuple[tuple[Any, ...], dict[str, Any]]: ...
+
+@final
+class Circle(Shape):
+    """A disk."""
+
+    def __new__(
+        cls,
+        radius: float,
+        *,
+        center: _Vec2Arg = ...,
+        density: float | None = None,
+    ) -> Circle: ...
+    @property
+    def radius(self) -> float:
+        """Radius (m)."""
+    @property
+    def center(self) -> Vec2:
+        """Centre (m)."""
+
+@final
+class Box(Shape):
+    """A rectangle."""
+
+    def __new__(
+        cls,
+        width: float,
+        height: float,
+        *,
+        center: _Vec2Arg = ...,
+        angle: float = 0.0,
+        density: float | None = None,
+    ) -> Box: ...
+    @property
+    def width(self) -> float:
+        """Width along x before turning (m)."""
+    @property
+    def height(self) -> float:
+        """Height along y before turning (m)."""
+    @property
+    def center(self) -> Vec2:
+        """Centre (m)."""
+    @property
+    def angle(self) -> float:
+        """By which it is turned (rad)."""
+    @property
+    def vertices(self) -> _Array:
+        """Corners (4, 2), counter-clockwise (m)."""
+
+@final
+class RegularPolygon(Shape):
+    """A polygon of equal sides and angles; its first vertex lies in the direction `angle`."""
+
+    def __new__(
+        cls,
+        sides: int,
+        radius: float,
+        *,
+        center: _Vec2Arg = ...,
+        angle: float = 0.0,
+        density: float | None = None,
+    ) -> RegularPolygon: ...
+    @property
+    def sides(self) -> int:
+        """Number of sides."""
+    @property
+    def radius(self) -> float:
+        """Distance of the vertices from the centre (m)."""
+    @property
+    def center(self) -> Vec2:
+        """Centre (m)."""
+    @property
+    def angle(self) -> float:
+        """Direction of the first vertex (rad)."""
+    @property
+    def vertices(self) -> _Array:
+        """Vertices (n, 2), counter-clockwise (m)."""
+
+@final
+class Polygon(Shape):
+    """A simple polygon, convex or not, with or without holes.
+
+    Vertices (n, 2) may be given in either direction; crossing edges are a `ValueError`.
+    """
+
+    def __new__(
+        cls,
+        vertices: ArrayLike,
+        *,
+        holes: Iterable[ArrayLike] | None = None,
+        density: float | None = None,
+    ) -> Polygon: ...
+    @property
+    def vertices(self) -> _Array:
+        """Vertices (n, 2), cleaned, counter-clockwise (m)."""
+    @property
+    def holes(self) -> list[_Array]:
+        """Holes, each (n, 2), clockwise (m)."""
+
+@final
+class RoundedPolygon(Shape):
+    """A convex polygon grown by a disk of this radius (above 0)."""
+
+    def __new__(
+        cls,
+        vertices: ArrayLike,
+        radius: float,
+        *,
+        density: float | None = None,
+    ) -> RoundedPolygon: ...
+    @property
+    def vertices(self) -> _Array:
+        """Vertices of the core (n, 2), cleaned, counter-clockwise (m)."""
+    @property
+    def radius(self) -> float:
+        """Radius of the disk (m)."""
+
+@final
+class Capsule(Shape):
+    """All points within `radius` of the segment from `a` to `b`."""
+
+    def __new__(
+        cls,
+        a: _Vec2Arg,
+        b: _Vec2Arg,
+        radius: float,
+        *,
+        density: float | None = None,
+    ) -> Capsule: ...
+    @property
+    def a(self) -> Vec2:
+        """One end of the segment (m)."""
+    @property
+    def b(self) -> Vec2:
+        """The other end (m)."""
+    @property
+    def radius(self) -> float:
+        """Radius (m)."""
+
+@final
+class Segment(Shape):
+    """A thin straight wire; its density is per length (kg/m)."""
+
+    def __new__(cls, a: _Vec2Arg, b: _Vec2Arg, *, density: float | None = None) -> Segment: ...
+    @property
+    def a(self) -> Vec2:
+        """One end (m)."""
+    @property
+    def b(self) -> Vec2:
+        """The other end (m)."""
+
+@final
+class Arc(Shape):
+    """A thin circular wire from the direction `start` over the signed angle `sweep` (rad).
+
+    Its density is per length (kg/m).
+    """
+
+    def __new__(
+        cls,
+        center: _Vec2Arg,
+        radius: float,
+        start: float,
+        sweep: float,
+        *,
+        density: float | None = None,
+    ) -> Arc: ...
+    @property
+    def center(self) -> Vec2:
+        """Centre of its circle (m)."""
+    @property
+    def radius(self) -> float:
+        """Radius (m)."""
+    @property
+    def start(self) -> float:
+        """Direction of its first point from the centre (rad)."""
+    @property
+    def sweep(self) -> float:
+        """Angle from its first point to its last (rad), counter-clockwise above 0."""
+
+@final
+class MassProperties:
+    """Mass, centre of mass and moment of inertia."""
+
+    __match_args__: ClassVar[tuple[str, str, str]]
+
+    def __new__(cls, mass: float, center: _Vec2Arg, inertia: float) -> MassProperties: ...
+    @property
+    def mass(self) -> float:
+        """Mass (kg)."""
+    @property
+    def center(self) -> Vec2:
+        """Centre of mass (m)."""
+    @property
+    def inertia(self) -> float:
+        """Moment of inertia about the centre of mass (kg·m²)."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[MassProperties], tuple[Any, ...]]: ...
+
+@final
+class Energy:
+    """Where a world's energy is (J). `balance` stays what it was, whatever happens."""
+
+    __match_args__: ClassVar[tuple[str, str, str, str, str, str]]
+
+    def __new__(
+        cls,
+        kinetic: float,
+        potential: float,
+        work: float,
+        dissipated: float,
+        total: float,
+        balance: float,
+    ) -> Energy: ...
+    @property
+    def kinetic(self) -> float:
+        """Σ ½mv² + ½Iω²."""
+    @property
+    def potential(self) -> float:
+        """In gravity, against the origin, and in fields that have a potential."""
+    @property
+    def work(self) -> float:
+        """Done on the bodies by forces without a potential, since the world was made."""
+    @property
+    def dissipated(self) -> float:
+        """Taken by drag and damping, since the world was made."""
+    @property
+    def total(self) -> float:
+        """Kinetic and potential energy."""
+    @property
+    def balance(self) -> float:
+        """total − work + dissipated."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Energy], tuple[Any, ...]]: ...
+
+@final
+class Facts:
+    """What holds of a method."""
+
+    __match_args__: ClassVar[tuple[str, str, str, str, str, str, str, str, str]]
+
+    def __new__(
+        cls,
+        name: str,
+        order: int,
+        symplectic: bool,
+        reversible: bool,
+        exact_for_constant_force: bool,
+        adaptive: bool,
+        joints: bool,
+        contacts: bool,
+        about: str,
+    ) -> Facts: ...
+    @property
+    def name(self) -> str:
+        """Name, as `World.method` takes it."""
+    @property
+    def order(self) -> int:
+        """Error after a fixed time falls as h^order."""
+    @property
+    def symplectic(self) -> bool:
+        """The map of a step is symplectic (forces that come from a potential)."""
+    @property
+    def reversible(self) -> bool:
+        """A run turned round comes back to its start."""
+    @property
+    def exact_for_constant_force(self) -> bool:
+        """Exact for a force that is constant in time and place."""
+    @property
+    def adaptive(self) -> bool:
+        """Chooses its own step to a tolerance."""
+    @property
+    def joints(self) -> bool:
+        """Treats joints."""
+    @property
+    def contacts(self) -> bool:
+        """Treats contacts."""
+    @property
+    def about(self) -> str:
+        """What it does, in one sentence."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Facts], tuple[Any, ...]]: ...
+
+@final
+class Central:
+    """A pull of every body towards a point, −strength·r^exponent (N).
+
+    Times the body's mass if `per_mass`. Gravitation of a sun (exponent −2, per mass), a spring (1),
+    a constant pull (0).
+    """
+
+    __match_args__: ClassVar[tuple[str, str, str, str]]
+
+    def __new__(
+        cls,
+        center: _Vec2Arg,
+        strength: float,
+        exponent: float,
+        per_mass: bool = ...,
+    ) -> Central: ...
+    @property
+    def center(self) -> Vec2:
+        """The point (m)."""
+    @property
+    def strength(self) -> float:
+        """N/m^exponent, or that per kg."""
+    @property
+    def exponent(self) -> float:
+        """Power of the distance."""
+    @property
+    def per_mass(self) -> bool:
+        """Whether the force is proportional to the mass it acts on."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Central], tuple[Any, ...]]: ...
+
+@final
+class Attraction:
+    """A pull of all bodies on one another, gravitation for exponent −2.
+
+    −strength·m₁m₂·r/(r² + softening²)^((1 − exponent)/2) (N).
+    """
+
+    __match_args__: ClassVar[tuple[str, str, str]]
+
+    def __new__(
+        cls,
+        strength: float,
+        exponent: float = ...,
+        softening: float = ...,
+    ) -> Attraction: ...
+    @property
+    def strength(self) -> float:
+        """N/(kg²·m^exponent)."""
+    @property
+    def exponent(self) -> float:
+        """Power of the distance; −2 if not given."""
+    @property
+    def softening(self) -> float:
+        """Length (m) below which the pull no longer grows."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Attraction], tuple[Any, ...]]: ...
+
+@final
+class Oscillating:
+    """A force and a torque on one body that vary as sin(2π·hertz·t + phase)."""
+
+    def __new__(
+        cls,
+        body: Body,
+        force: _Vec2Arg = ...,
+        torque: float = 0.0,
+        hertz: float = 1.0,
+        phase: float = 0.0,
+    ) -> Oscillating: ...
+    @property
+    def body(self) -> Body:
+        """The body. The field acts on nothing once it is removed."""
+    @property
+    def force(self) -> Vec2:
+        """Amplitude of the force through the centre of mass (N)."""
+    @property
+    def torque(self) -> float:
+        """Amplitude of the torque (N·m)."""
+    @property
+    def hertz(self) -> float:
+        """Frequency (Hz)."""
+    @property
+    def phase(self) -> float:
+        """Phase at t = 0 (rad)."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Oscillating], tuple[Any, ...]]: ...
+
+@final
+class State:
+    """All bodies at one moment, in body order, as a field sees them. The arrays are copies."""
+
+    @property
+    def time(self) -> float:
+        """World time (s)."""
+    @property
+    def positions(self) -> _Array:
+        """Centres of mass (n, 2) (m)."""
+    @property
+    def angles(self) -> _Array:
+        """Angles (n,) (rad)."""
+    @property
+    def velocities(self) -> _Array:
+        """Velocities of the centres of mass (n, 2) (m/s)."""
+    @property
+    def angular_velocities(self) -> _Array:
+        """Angular velocities (n,) (rad/s)."""
+    @property
+    def masses(self) -> _Array:
+        """Masses (n,) (kg)."""
+    @property
+    def inertias(self) -> _Array:
+        """Moments of inertia about the centres of mass (n,) (kg·m²)."""
+    def __len__(self) -> int: ...
+
+@final
+class Body:
+    """A body of a world. Worlds make bodies: `World.add_body`.
+
+    There is one object per body, so bodies are compared by identity and keep attributes of the
+    user's own. A body that was removed raises `StaleHandleError`.
+    """
+
+    @property
+    def position(self) -> Vec2:
+        """Position of the body's frame (m)."""
+    @position.setter
+    def position(self, value: _Vec2Arg, /) -> None: ...
+    @property
+    def angle(self) -> float:
+        """Angle of the body's frame (rad), not wrapped."""
+    @angle.setter
+    def angle(self, value: float, /) -> None: ...
+    @property
+    def velocity(self) -> Vec2:
+        """Velocity of the centre of mass (m/s)."""
+    @velocity.setter
+    def velocity(self, value: _Vec2Arg, /) -> None: ...
+    @property
+    def angular_velocity(self) -> float:
+        """Angular velocity (rad/s)."""
+    @angular_velocity.setter
+    def angular_velocity(self, value: float, /) -> None: ...
+    @property
+    def center_of_mass(self) -> Vec2:
+        """Centre of mass in the world (m)."""
+    @property
+    def force(self) -> Vec2:
+        """Constant force through the centre of mass (N), until changed."""
+    @force.setter
+    def force(self, value: _Vec2Arg, /) -> None: ...
+    @property
+    def torque(self) -> float:
+        """Constant torque (N·m), until changed."""
+    @torque.setter
+    def torque(self, value: float, /) -> None: ...
+    @property
+    def kinetic_energy(self) -> float:
+        """½mv² + ½Iω² (J); 0 of a body that does not answer to forces."""
+    @property
+    def momentum(self) -> Vec2:
+        """mv (kg·m/s)."""
+    @property
+    def kind(self) -> _Kind:
+        """ "dynamic", "static" or "kinematic". Making a body static stops it."""
+    @kind.setter
+    def kind(self, value: _Kind, /) -> None: ...
+    @property
+    def name(self) -> str | None:
+        """Name, or None."""
+    @name.setter
+    def name(self, value: str | None, /) -> None: ...
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """The shapes, in the body's frame; empty for a point. May be set to one or None."""
+    @shapes.setter
+    def shapes(self, value: Shape | Iterable[Shape] | None, /) -> None: ...
+    @property
+    def mass(self) -> float:
+        """Mass (kg). Setting None lets it follow from the densities again."""
+    @mass.setter
+    def mass(self, value: float | None, /) -> None: ...
+    @property
+    def inertia(self) -> float:
+        """Moment of inertia about the centre of mass (kg·m²). None: as follows from the shapes."""
+    @inertia.setter
+    def inertia(self, value: float | None, /) -> None: ...
+    @property
+    def density(self) -> float:
+        """Density of shapes that have none of their own (kg/m²; kg/m of wires)."""
+    @density.setter
+    def density(self, value: float, /) -> None: ...
+    @property
+    def local_center(self) -> Vec2:
+        """Centre of mass in the body's frame (m). None: the shapes'. The frame stays."""
+    @local_center.setter
+    def local_center(self, value: _Vec2Arg | None, /) -> None: ...
+    @property
+    def lock_x(self) -> bool:
+        """Whether the body cannot move along x. Locking stops it there."""
+    @lock_x.setter
+    def lock_x(self, value: bool, /) -> None: ...
+    @property
+    def lock_y(self) -> bool:
+        """Whether the body cannot move along y. Locking stops it there."""
+    @lock_y.setter
+    def lock_y(self, value: bool, /) -> None: ...
+    @property
+    def lock_rotation(self) -> bool:
+        """Whether the body cannot rotate. Locking stops its rotation."""
+    @lock_rotation.setter
+    def lock_rotation(self, value: bool, /) -> None: ...
+    @property
+    def gravity_scale(self) -> float:
+        """How many times gravity acts."""
+    @gravity_scale.setter
+    def gravity_scale(self, value: float, /) -> None: ...
+    @property
+    def linear_damping(self) -> float:
+        """Rate at which the velocity against the air decays (1/s)."""
+    @linear_damping.setter
+    def linear_damping(self, value: float, /) -> None: ...
+    @property
+    def angular_damping(self) -> float:
+        """Rate at which the angular velocity decays (1/s)."""
+    @angular_damping.setter
+    def angular_damping(self, value: float, /) -> None: ...
+    @property
+    def drag_coefficient(self) -> float:
+        """C in the air drag ½ρCAv²."""
+    @drag_coefficient.setter
+    def drag_coefficient(self, value: float, /) -> None: ...
+    @property
+    def drag_width(self) -> _Width:
+        """A in the air drag ½ρCAv²: "silhouette", "bounding_box", or a width (m)."""
+    @drag_width.setter
+    def drag_width(self, value: _Width, /) -> None: ...
+    @property
+    def world(self) -> World:
+        """The world it is, or was, in."""
+    @property
+    def index(self) -> int:
+        """Its place in body order, which arrays and lists follow."""
+    @property
+    def removed(self) -> bool:
+        """Whether it was removed from its world."""
+    def velocity_at(self, point: _Vec2Arg) -> Vec2:
+        """Velocity (m/s) of the point of the body that is at a world point."""
+    def world_point(self, local: _Vec2Arg) -> Vec2:
+        """World coordinates of a point in the body's frame."""
+    def local_point(self, world: _Vec2Arg) -> Vec2:
+        """Coordinates in the body's frame of a world point."""
+    def apply_force(self, force: _Vec2Arg, at: _Vec2Arg | None = None) -> None:
+        """Adds a force (N) for the next step, through the centre of mass or at a world point."""
+    def apply_torque(self, torque: float) -> None:
+        """Adds a torque (N·m) for the next step."""
+    def apply_impulse(self, impulse: _Vec2Arg, at: _Vec2Arg | None = None) -> None:
+        """Changes the velocities at once by an impulse (N·s), at the centre or at a world point."""
+    def apply_angular_impulse(self, impulse: float) -> None:
+        """Changes the angular velocity at once by an angular impulse (N·m·s)."""
+    def remove(self) -> None:
+        """Removes the body, and the schedules on it, from its world."""
+    def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
+
+@final
+class Field:
+    """A field of a world. Worlds make them: `World.add_field`."""
+
+    @property
+    def name(self) -> str:
+        """Name, for messages and `explain()`."""
+    @property
+    def function(self) -> _Law | Central | Attraction | Oscillating | None:
+        """The user's function, or which of the engine's fields it is."""
+    @property
+    def potential(self) -> _Potential | None:
+        """The user's potential, if there is one."""
+    @property
+    def conservative(self) -> bool:
+        """Whether it has a potential; the work of other fields is booked as such."""
+    @property
+    def velocity_dependent(self) -> bool:
+        """Whether the forces depend on velocities."""
+    @property
+    def internal(self) -> bool:
+        """Whether the forces act between the bodies and sum to zero, torques too."""
+    @property
+    def world(self) -> World:
+        """The world it is, or was, in."""
+    @property
+    def removed(self) -> bool:
+        """Whether it was removed from its world."""
+    def remove(self) -> None:
+        """Removes the field from its world."""
+    def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
+
+@final
+class Schedule:
+    """Forces on a body that are constant between given times. Made by `World.add_schedule`."""
+
+    @property
+    def body(self) -> Body | None:
+        """The body it acts on."""
+    @property
+    def times(self) -> _Array:
+        """Times (n + 1,) at which the force changes (s, world time)."""
+    @property
+    def forces(self) -> _Array:
+        """Forces (n, 2) between those times (N)."""
+    @property
+    def torques(self) -> _Array:
+        """Torques (n,) between those times (N·m)."""
+    @property
+    def world(self) -> World:
+        """The world it is, or was, in."""
+    @property
+    def removed(self) -> bool:
+        """Whether it was removed from its world."""
+    def remove(self) -> None:
+        """Removes the schedule from its world."""
+    def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
+
+@final
+class Trajectory:
+    """The motion of all bodies at a row of times. Bodies stand in body order."""
+
+    def __new__(
+        cls,
+        times: _Array,
+        positions: _Array,
+        angles: _Array,
+        velocities: _Array,
+        angular_velocities: _Array,
+    ) -> Trajectory: ...
+    @property
+    def times(self) -> _Array:
+        """World times (k,) (s)."""
+    @property
+    def positions(self) -> _Array:
+        """Positions of the bodies' frames (k, n, 2) (m)."""
+    @property
+    def angles(self) -> _Array:
+        """Angles (k, n) (rad)."""
+    @property
+    def velocities(self) -> _Array:
+        """Velocities of the centres of mass (k, n, 2) (m/s)."""
+    @property
+    def angular_velocities(self) -> _Array:
+        """Angular velocities (k, n) (rad/s)."""
+    def __len__(self) -> int: ...
+    def __reduce__(self) -> tuple[type[Trajectory], tuple[_Array, ...]]: ...
+
+@final
+class StepReport:
+    """What the last step or run took."""
+
+    __match_args__: ClassVar[tuple[str, str, str, str, str, str, str, str]]
+
+    def __new__(
+        cls,
+        duration: float,
+        steps: int,
+        rejected: int,
+        evaluations: int,
+        smallest_step: float,
+        estimate: float | None,
+        stages: Mapping[str, float],
+        trajectory: Trajectory | None = ...,
+    ) -> StepReport: ...
+    @property
+    def duration(self) -> float:
+        """World time that passed (s)."""
+    @property
+    def steps(self) -> int:
+        """Steps of the methods, summed over what moves by itself; a closed form counts one."""
+    @property
+    def rejected(self) -> int:
+        """Steps that were tried again because their error was too large."""
+    @property
+    def evaluations(self) -> int:
+        """Evaluations of the forces."""
+    @property
+    def smallest_step(self) -> float:
+        """Smallest step (s); infinite where only closed forms were needed."""
+    @property
+    def estimate(self) -> float | None:
+        """Estimated relative error; None where it was not asked for."""
+    @property
+    def stages(self) -> dict[str, float]:
+        """Seconds each stage took, where `World.timing` is on."""
+    @property
+    def trajectory(self) -> Trajectory | None:
+        """The motion at the times that were asked for."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[StepReport], tuple[Any, ...]]: ...
+
+@final
+class Frame:
+    """What a frame of a `Stepper` amounted to."""
+
+    __match_args__: ClassVar[tuple[str, str, str]]
+
+    def __new__(cls, ticks: int, fraction: float, dropped: float) -> Frame: ...
+    @property
+    def ticks(self) -> int:
+        """Steps taken."""
+    @property
+    def fraction(self) -> float:
+        """Part of the next step that has passed: draw at old + fraction·(new − old)."""
+    @property
+    def dropped(self) -> float:
+        """Time (s, scaled) given up because `most_ticks` was reached."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Frame], tuple[Any, ...]]: ...
+
+@final
+class Stepper:
+    """Turns the time between frames into whole steps: a fixed number of ticks a second.
+
+    With a time scale (0 pauses), and a cap on how many ticks one frame catches up.
+    """
+
+    def __new__(
+        cls, ticks_per_second: float, *, time_scale: float = 1.0, most_ticks: int = 8
+    ) -> Stepper: ...
+    @property
+    def tick(self) -> float:
+        """Length of a tick (s)."""
+    @property
+    def time_scale(self) -> float:
+        """How much faster than real time the world runs; 0 pauses it."""
+    @time_scale.setter
+    def time_scale(self, value: float, /) -> None: ...
+    @property
+    def most_ticks(self) -> int:
+        """Most ticks that a frame catches up; what is beyond is given up."""
+    @most_ticks.setter
+    def most_ticks(self, value: int, /) -> None: ...
+    def frame(self, world: World, elapsed: float) -> Frame:
+        """Takes the real time since the last frame (s) and does the steps that are due."""
+
+@final
+class Snapshot:
+    """A world as it was at one moment: to go back to, to keep, to send. Continues bit for bit."""
+
+    def __new__(cls, data: bytes, laws: Sequence[tuple[Any, ...]] = ...) -> Snapshot: ...
+    @property
+    def time(self) -> float:
+        """World time (s)."""
+    def to_world(self) -> World:
+        """A new world that continues from here."""
+    def __len__(self) -> int: ...
+    def __bool__(self) -> bool: ...
+    def __copy__(self) -> Snapshot: ...
+    def __reduce__(self) -> tuple[type[Snapshot], tuple[bytes, list[tuple[Any, ...]]]]: ...
+
+@final
+class World:
+    """Bodies, and the laws they move by. A world may be used from several threads."""
+
+    def __new__(
+        cls,
+        gravity: _Vec2Arg = ...,
+        *,
+        air_density: float = 0.0,
+        wind: _Vec2Arg = ...,
+        method: str = "leapfrog",
+        substeps: int = 4,
+        closed_form: bool = True,
+        timing: bool = False,
+    ) -> World: ...
+    @property
+    def gravity(self) -> Vec2:
+        """Gravity (m/s²)."""
+    @gravity.setter
+    def gravity(self, value: _Vec2Arg, /) -> None: ...
+    @property
+    def air_density(self) -> float:
+        """Density of the air (kg/m²)."""
+    @air_density.setter
+    def air_density(self, value: float, /) -> None: ...
+    @property
+    def wind(self) -> Vec2:
+        """Velocity of the air (m/s)."""
+    @wind.setter
+    def wind(self, value: _Vec2Arg, /) -> None: ...
+    @property
+    def method(self) -> str:
+        """Name of the method that moves bodies at a fixed step; `culbuto.methods()` lists them."""
+    @method.setter
+    def method(self, value: str, /) -> None: ...
+    @property
+    def substeps(self) -> int:
+        """Into how many equal substeps a step is divided, 1 to 65536."""
+    @substeps.setter
+    def substeps(self, value: int, /) -> None: ...
+    @property
+    def closed_form(self) -> bool:
+        """Whether bodies under constant forces take the exact solution, whatever the method."""
+    @closed_form.setter
+    def closed_form(self, value: bool, /) -> None: ...
+    @property
+    def timing(self) -> bool:
+        """Whether each stage of a step is timed, for `report()` and `explain()`."""
+    @timing.setter
+    def timing(self, value: bool, /) -> None: ...
+    @property
+    def time(self) -> float:
+        """World time (s). Schedules and fields that depend on time go by it."""
+    @time.setter
+    def time(self, value: float, /) -> None: ...
+    @property
+    def bodies(self) -> list[Body]:
+        """All bodies, in body order."""
+    @property
+    def fields(self) -> list[Field]:
+        """All fields."""
+    @property
+    def schedules(self) -> list[Schedule]:
+        """All schedules."""
+    @property
+    def positions(self) -> _Array:
+        """Positions of the bodies' frames (n, 2) (m). May be set; all or nothing."""
+    @positions.setter
+    def positions(self, value: ArrayLike, /) -> None: ...
+    @property
+    def angles(self) -> _Array:
+        """Angles (n,) (rad). May be set; all or nothing."""
+    @angles.setter
+    def angles(self, value: ArrayLike, /) -> None: ...
+    @property
+    def velocities(self) -> _Array:
+        """Velocities of the centres of mass (n, 2) (m/s). May be set; all or nothing."""
+    @velocities.setter
+    def velocities(self, value: ArrayLike, /) -> None: ...
+    @property
+    def angular_velocities(self) -> _Array:
+        """Angular velocities (n,) (rad/s). May be set; all or nothing."""
+    @angular_velocities.setter
+    def angular_velocities(self, value: ArrayLike, /) -> None: ...
+    @property
+    def forces(self) -> _Array:
+        """Constant forces (n, 2) (N). May be set; all or nothing."""
+    @forces.setter
+    def forces(self, value: ArrayLike, /) -> None: ...
+    @property
+    def torques(self) -> _Array:
+        """Constant torques (n,) (N·m). May be set; all or nothing."""
+    @torques.setter
+    def torques(self, value: ArrayLike, /) -> None: ...
+    @property
+    def masses(self) -> _Array:
+        """Masses (n,) (kg)."""
+    @property
+    def inertias(self) -> _Array:
+        """Moments of inertia about the centres of mass (n,) (kg·m²)."""
+    @property
+    def centers(self) -> _Array:
+        """Centres of mass in the world (n, 2) (m)."""
+    @property
+    def energy(self) -> Energy:
+        """Energies of the dynamic bodies."""
+    @property
+    def momentum(self) -> Vec2:
+        """Σ mv over the dynamic bodies (kg·m/s)."""
+    @property
+    def mass(self) -> float:
+        """Mass of the dynamic bodies (kg)."""
+    @property
+    def center_of_mass(self) -> Vec2:
+        """Centre of mass of the dynamic bodies (m); the origin where there is none."""
+    def angular_momentum(self, about: _Vec2Arg = ...) -> float:
+        """Σ m(r − p) × v + Iω over the dynamic bodies (kg·m²/s), about a point p (m)."""
+    def third_law_residual(self) -> float | None:
+        """Largest net force and torque of the internal fields, over the sum of their forces.
+
+        0 to rounding where they say the truth; None without such a field.
+        """
+    def add_body(
+        self,
+        shape: Shape | Iterable[Shape] | None = None,
+        *,
+        kind: _Kind = ...,
+        position: _Vec2Arg = ...,
+        angle: float = 0.0,
+        velocity: _Vec2Arg = ...,
+        angular_velocity: float = 0.0,
+        density: float = 1.0,
+        mass: float | None = None,
+        inertia: float | None = None,
+        center_of_mass: _Vec2Arg | None = None,
+        lock_x: bool = False,
+        lock_y: bool = False,
+        lock_rotation: bool = False,
+        gravity_scale: float = 1.0,
+        linear_damping: float = 0.0,
+        angular_damping: float = 0.0,
+        drag_coefficient: float = 0.4,
+        drag_width: _Width = ...,
+        force: _Vec2Arg = ...,
+        torque: float = 0.0,
+        name: str | None = None,
+    ) -> Body:
+        """Adds a body of a shape, of several (a compound) or of none (a point, with a mass).
+
+        Args:
+            shape: In the body's frame.
+            kind: "dynamic", "static" or "kinematic".
+            position: Of the body's frame (m).
+            angle: Of the body's frame (rad).
+            velocity: Of the centre of mass (m/s).
+            angular_velocity: rad/s.
+            density: Of shapes that have none of their own (kg/m²; kg/m of wires).
+            mass: Instead of what follows from the densities (kg).
+            inertia: About the centre of mass, instead of what follows from the shapes (kg·m²).
+            center_of_mass: In the body's frame, instead of what follows from the shapes (m).
+            lock_x: No motion along x.
+            lock_y: No motion along y.
+            lock_rotation: No rotation.
+            gravity_scale: How many times gravity acts.
+            linear_damping: Rate at which the velocity against the air decays (1/s).
+            angular_damping: Rate at which the angular velocity decays (1/s).
+            drag_coefficient: C in the air drag ½ρCAv².
+            drag_width: A in it: "silhouette", "bounding_box", or a width (m).
+            force: Constant, through the centre of mass (N).
+            torque: Constant (N·m).
+            name: To find the body by.
+
+        Raises:
+            ValueError: For a number that is not allowed; it says which, and what is.
+        """
+    def add_field(
+        self,
+        field: _Law | Central | Attraction | Oscillating,
+        *,
+        potential: _Potential | None = None,
+        velocity_dependent: bool = True,
+        internal: bool = False,
+        name: str | None = None,
+    ) -> Field:
+        """Adds a field of force, which acts on all bodies.
+
+        Args:
+            field: One of the engine's, or a function of a `State` that returns forces (n, 2) (N),
+                or a tuple of forces and torques (n,) (N·m). What it raises comes out of the step.
+            potential: A function of a `State` that returns the energy (J) whose gradient the forces
+                are. Without it the forces do work.
+            velocity_dependent: False saves evaluations where it is true.
+            internal: Says that the forces act between the bodies and sum to zero, torques too.
+            name: For messages; by default the function's.
+        """
+    def add_schedule(
+        self,
+        body: Body,
+        times: ArrayLike,
+        forces: ArrayLike | None = None,
+        torques: ArrayLike | None = None,
+    ) -> Schedule:
+        """Adds forces (n, 2) (N) and torques (n,) (N·m) on a body, constant between given times.
+
+        Times (n + 1,) are in s, world time; nothing acts before and after, and the last may be
+        infinite. Steps end at each of them, so the motion is as exact as under a constant force.
+        """
+    def remove(self, part: Body | Field | Schedule) -> None:
+        """Removes a body (and the schedules on it), a field or a schedule."""
+    def find(self, name: str) -> Body | None:
+        """The first body of this name, in body order; None if there is none."""
+    def read(self, column: _Column, *, out: _Array | None = None) -> _Array:
+        """Fills a contiguous array of floats of the right shape with a column, and returns it."""
+    def step(self, dt: float, steps: int = 1, *, estimate: bool = False) -> None:
+        """Moves the world on by `steps` steps of `dt` (s), at a fixed step.
+
+        Forces applied for the next step act in the first. With `estimate` the error is estimated
+        from a run at half the substep (three times the cost); `report()` tells it.
+        """
+    def advance(
+        self, duration: float, tolerance: float = 1e-09, *, times: ArrayLike | None = None
+    ) -> StepReport:
+        """Moves the world on by a duration (s), to a relative tolerance (1e-15 to 0.1).
+
+        The report holds an estimate of the error and, where `times` (k,) are given (s from now,
+        increasing, within the duration), the motion at those.
+        """
+    def record(self, dt: float, steps: int, every: int = 1) -> Trajectory:
+        """`steps` steps of `dt` (s), keeping the motion at the start and after every `every`."""
+    def report(self) -> StepReport:
+        """What the last step or run took."""
+    def explain(self) -> str:
+        """The stages a step of this world runs, which bodies each moves, and how."""
+    def snapshot(self) -> Snapshot:
+        """Keeps the world as it is: `restore` goes back to it."""
+    def restore(self, snapshot: Snapshot) -> None:
+        """Goes back to a snapshot, of this world or of another.
+
+        The objects of then are those of now again, the removed ones too; what was added since is
+        gone. From another world's snapshot, or one that was pickled, bodies whose handles are the
+        same keep their objects, and the rest is made anew.
+        """
+    def __len__(self) -> int: ...
+    def __bool__(self) -> bool: ...
+    def __iter__(self) -> Iterator[Body]: ...
+    def __contains__(self, key: object, /) -> bool: ...
+    def __copy__(self) -> World: ...
+    def __reduce__(self) -> tuple[type[World], tuple[()], tuple[Any, ...]]: ...
+    def __setstate__(self, state: tuple[Any, ...]) -> None: ...
+    def _repr_svg_(self) -> str:
+        """The world as it is, as an SVG: what a notebook shows of it."""
+    def draw(self, ax: Axes, **style: object) -> Axes:
+        """Draws the world as it is on matplotlib axes, in metres; `style` goes to the patches."""
+
+def methods() -> list[Facts]:
+    """Facts of every method, the default first."""
+
+# The catalogue and the report, as JSON: `culbuto.catalogue` and `culbuto.study` make classes of it.
+
+def catalogue() -> str:
+    """Every scene of the catalogue."""
+
+def open_scene(name: str) -> World:
+    """The world of a scene of the catalogue."""
+
+def read_scene(path: str) -> tuple[World, str]:
+    """The world of a scene file, and its name, about, dt and duration."""
+
+def verify(name: str) -> str:
+    """A scene against its answer."""
+
+def verify_laws(
+    world: World, method: str, dt: float, duration: float, limits: Sequence[float]
+) -> str:
+    """The conservation laws on a run of a copy of a world."""
+
+def study(
+    name: str,
+    ladders: tuple[Sequence[int], Sequence[float]],
+    methods: Sequence[str],
+    repeats: int,
+) -> str:
+    """Rows of error against run time, at numbers of steps a run and to tolerances."""
+
+def measured_order(name: str, method: str) -> str:
+    """The order of a method on a scene."""
+
+def thrown_ball(methods: Sequence[str], ticks: Sequence[int]) -> str:
+    """Paths of a thrown ball."""
+
+def exact_motion(name: str, times: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Positions and angles (k, n, 3) of a scene's bodies at times (s), as its answer has them."""
+
+def scene_error(
+    name: str,
+    times: NDArray[np.float64],
+    positions: NDArray[np.float64],
+    angles: NDArray[np.float64],
+) -> float:
+    """Largest error of a recorded motion of a scene, as the report states it."""

@@ -118,3 +118,29 @@ fn wrong_shape(what: &str, object: &Bound<'_, PyAny>, wanted: &str, cause: Optio
     error.set_cause(py, cause);
     error
 }
+
+/// The rows of an (n, 2) array.
+///
+/// # Errors
+/// Those of [`points`].
+pub fn vectors(
+    what: &str,
+    object: &Bound<'_, PyAny>,
+    rows: Option<usize>,
+) -> PyResult<Vec<math::Vec2>> {
+    let array = points(what, object, rows)?;
+    Ok(array.as_array().rows().into_iter().map(|row| math::vec2(row[0], row[1])).collect())
+}
+
+/// A whole number, 0 or above.
+///
+/// # Errors
+/// `ValueError` naming `what` for numbers that are not.
+pub fn count(what: &str, n: i64) -> PyResult<u32> {
+    u32::try_from(n).map_err(|_| {
+        PyValueError::new_err(format!(
+            "{what} is {n}; allowed: a whole number from 0 to {}",
+            u32::MAX
+        ))
+    })
+}

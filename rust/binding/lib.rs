@@ -5,18 +5,65 @@
 
 use pyo3::prelude::*;
 
-pub mod convert;
-pub mod error;
-pub mod vec2;
+mod add_body;
+mod arrays;
+mod body;
+mod catalogue;
+mod convert;
+mod drawing;
+mod error;
+mod field;
+mod law;
+mod observe;
+mod parts;
+mod record;
+mod schedule;
+mod shape;
+mod shapes;
+mod snapshot;
+mod stepper;
+mod stepping;
+mod vec2;
+mod words;
+mod world;
 
 /// The engine of the culbuto package. Import `culbuto` instead.
 #[pymodule]
 #[pyo3(name = "_native")]
 mod culbuto_native {
     #[pymodule_export]
+    use crate::body::Body;
+    #[pymodule_export]
+    use crate::catalogue::{
+        catalogue, exact_motion, measured_order, open_scene, read_scene, scene_error, study,
+        thrown_ball, verify, verify_laws,
+    };
+    #[pymodule_export]
     use crate::error::{SceneFileError, SimulationError, StaleHandleError};
     #[pymodule_export]
+    use crate::field::{Attraction, Central, Field, Oscillating};
+    #[pymodule_export]
+    use crate::law::State;
+    #[pymodule_export]
+    use crate::observe::{Energy, Facts, methods};
+    #[pymodule_export]
+    use crate::schedule::Schedule;
+    #[pymodule_export]
+    use crate::shape::{MassProperties, Shape};
+    #[pymodule_export]
+    use crate::shapes::{
+        Arc, Capsule, Circle, Polygon, Rectangle, RegularPolygon, RoundedPolygon, Segment,
+    };
+    #[pymodule_export]
+    use crate::snapshot::Snapshot;
+    #[pymodule_export]
+    use crate::stepper::{Frame, Stepper};
+    #[pymodule_export]
+    use crate::stepping::{StepReport, Trajectory};
+    #[pymodule_export]
     use crate::vec2::Vec2;
+    #[pymodule_export]
+    use crate::world::World;
 
     #[allow(non_upper_case_globals, reason = "the name Python gives to it")]
     #[pymodule_export]

@@ -4,7 +4,7 @@ use culbuto::math::{self, Real};
 use numpy::{PyArray1, PyUntypedArray};
 use pyo3::exceptions::{PyIndexError, PyTypeError, PyValueError, PyZeroDivisionError};
 use pyo3::prelude::*;
-use pyo3::types::{PyIterator, PyTuple};
+use pyo3::types::{PyFloat, PyIterator, PyTuple};
 
 use crate::convert::{Operand, Vec2Arg};
 
@@ -13,7 +13,7 @@ use crate::convert::{Operand, Vec2Arg};
 /// Wherever culbuto wants a vector, a tuple of two numbers does as well; what it gives back is a
 /// `Vec2`, which unpacks like a tuple, equals the tuple of its components and hashes like it.
 #[pyclass(frozen, module = "culbuto")]
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vec2(pub math::Vec2);
 
 #[pymethods]
@@ -165,6 +165,15 @@ impl Vec2 {
     }
 }
 
+/// As a field of a plain record, whose constructor takes what every vector argument does.
+impl<'py> FromPyObject<'_, 'py> for Vec2 {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        Vec2Arg::extract(object).map(|v| Self(v.0))
+    }
+}
+
 impl Vec2 {
     fn tuple<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         (self.0.x, self.0.y).into_pyobject(py)
@@ -179,6 +188,9 @@ impl<'py> FromPyObject<'_, 'py> for Scalar {
     type Error = PyErr;
 
     fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(float) = object.cast::<PyFloat>() {
+            return Ok(Self(float.value()));
+        }
         match object.extract() {
             Ok(number) if object.cast::<PyUntypedArray>().is_err() => Ok(Self(number)),
             _ => Err(PyTypeError::new_err("expected a number")),

@@ -30,6 +30,13 @@ pub enum Error {
         #[source]
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+    /// Whoever watches a long run stopped it; nothing was stepped.
+    #[error("interrupted: {source}")]
+    Interrupted {
+        /// Why.
+        #[source]
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
     /// The motion left the range of numbers; nothing was stepped.
     #[error("the motion is no longer finite at t = {time} s ({what} of body {body}); {hint}")]
     NotFinite {

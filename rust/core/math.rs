@@ -61,10 +61,15 @@ pub fn ln_1p(x: Real) -> Real {
     libm::log1p(x)
 }
 
-/// x^y.
+/// x^y; small whole exponents by multiplication.
 #[must_use]
 pub fn powf(x: Real, y: Real) -> Real {
-    libm::pow(x, y)
+    const WHOLE: Real = 8.0;
+    if y.abs() > WHOLE || y != y.trunc() {
+        return libm::pow(x, y);
+    }
+    let product = (0..y.abs() as u32).fold(1.0, |product, _| product * x);
+    if y < 0.0 { 1.0 / product } else { product }
 }
 
 /// A rotation as a unit complex number cos + i sin.

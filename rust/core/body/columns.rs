@@ -51,8 +51,6 @@ impl Mass {
 pub struct Info {
     /// The definition, kept up to date for all but the motion (position, velocity, force).
     pub def: BodyDef,
-    /// Centre of mass in the body's frame (m).
-    pub local_center: Vec2,
     /// Largest distance from the centre of mass to the body's outline (m): its size ℓ.
     pub size: Real,
     /// Outline as air sees it.
@@ -62,16 +60,16 @@ pub struct Info {
 
 impl Info {
     fn new(def: BodyDef, center: Vec2) -> Self {
-        let mut info = Self { def, local_center: center, size: 0.0, silhouette: no_silhouette() };
-        info.rebuild();
+        let mut info = Self { def, size: 0.0, silhouette: no_silhouette() };
+        info.rebuild(center);
         info
     }
 
     /// Derives what is not stored.
-    fn rebuild(&mut self) {
+    fn rebuild(&mut self, center: Vec2) {
         let shapes: Vec<&Shape> = self.def.shapes.iter().map(|part| &part.shape).collect();
         self.silhouette = Silhouette::new(&shapes);
-        self.size = shapes.iter().map(|s| s.extent_from(self.local_center)).fold(0.0, Real::max);
+        self.size = shapes.iter().map(|s| s.extent_from(center)).fold(0.0, Real::max);
     }
 }
 
@@ -90,6 +88,8 @@ pub struct Bodies {
     pub twists: Vec<Twist>,
     /// Masses.
     pub masses: Vec<Mass>,
+    /// Centres of mass in the bodies' frames (m).
+    pub local_centers: Vec<Vec2>,
     /// Constant forces, until changed.
     pub forces: Vec<Wrench>,
     /// Forces for the next step only.
@@ -136,6 +136,7 @@ impl Bodies {
         self.poses.push(Pose::new(pose.apply(sum.center), def.angle));
         self.twists.push(Twist::new(def.velocity, def.angular_velocity));
         self.masses.push(def.mass_column(&sum));
+        self.local_centers.push(sum.center);
         self.forces.push(Wrench::new(def.force, def.torque));
         self.applied.push(Wrench::ZERO);
         self.infos.push(Info::new(def, sum.center));
@@ -148,6 +149,7 @@ impl Bodies {
         self.poses.swap_remove(i);
         self.twists.swap_remove(i);
         self.masses.swap_remove(i);
+        self.local_centers.swap_remove(i);
         self.forces.swap_remove(i);
         self.applied.swap_remove(i);
         self.infos.swap_remove(i);
@@ -164,8 +166,8 @@ impl Bodies {
         def.validated()?;
         let sum: MassProperties = def.mass_properties()?;
         let mut twist = Twist::new(def.velocity, def.angular_velocity);
-        if sum.center != self.infos[i].local_center {
-            let moved = origin.rot().apply(sum.center - self.infos[i].local_center);
+        if sum.center != self.local_centers[i] {
+            let moved = origin.rot().apply(sum.center - self.local_centers[i]);
             let locked = |axis: bool, v: Real| if axis { 0.0 } else { v };
             twist.linear = twist.at(moved);
             twist.linear.x = locked(def.locks.x, twist.linear.x);
@@ -174,6 +176,7 @@ impl Bodies {
         }
         self.twists[i] = twist;
         self.masses[i] = def.mass_column(&sum);
+        self.local_centers[i] = sum.center;
         self.forces[i] = Wrench::new(def.force, def.torque);
         self.infos[i] = Info::new(def, sum.center);
         Ok(())
@@ -197,7 +200,7 @@ impl Bodies {
     /// Where the body's frame stands.
     #[must_use]
     pub fn origin(&self, i: usize) -> Pose {
-        let (pose, local) = (&self.poses[i], self.infos[i].local_center);
+        let (pose, local) = (&self.poses[i], self.local_centers[i]);
         if local == Vec2::zeros() {
             return *pose;
         }
@@ -206,7 +209,7 @@ impl Bodies {
 
     /// Puts the body's frame at a pose.
     pub fn set_origin(&mut self, i: usize, origin: Pose) {
-        self.poses[i] = Pose::new(origin.apply(self.infos[i].local_center), origin.angle);
+        self.poses[i] = Pose::new(origin.apply(self.local_centers[i]), origin.angle);
     }
 
     /// Whether body `i` is of this kind.
@@ -217,6 +220,7 @@ impl Bodies {
 
     /// Derives again what snapshots leave out.
     pub(crate) fn rebuild(&mut self) {
-        self.infos.iter_mut().for_each(Info::rebuild);
+        let centers = self.infos.iter_mut().zip(&self.local_centers);
+        centers.for_each(|(info, center)| info.rebuild(*center));
     }
 }

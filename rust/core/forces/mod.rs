@@ -51,6 +51,8 @@ pub struct Forces<'a> {
     pub air: Air,
     /// Fields of the user's; they act on all bodies at once.
     pub fields: &'a [Arc<dyn ForceField>],
+    /// Whether air or damping acts on any of the bodies.
+    pub resistance: bool,
     /// Columns to work in.
     pub buffers: &'a mut ForceBuffers,
     /// Force evaluations so far.
@@ -107,7 +109,7 @@ impl Forces<'_> {
     ) -> Result<Ledger> {
         self.accelerate_without_resistance(time, poses, twists, out)?;
         let mut dissipated = 0.0;
-        for i in 0..poses.len() {
+        for i in 0..if self.resistance { poses.len() } else { 0 } {
             let state = (&poses[i], &twists[i]);
             if let Some(resisting) =
                 drag::resistance(&self.masses[i], &self.infos[i], self.air, state)
@@ -119,6 +121,12 @@ impl Forces<'_> {
             }
         }
         Ok(Ledger { work: self.working_power(twists), dissipated })
+    }
+
+    /// Whether any force of the last evaluation does work that no potential accounts for.
+    #[must_use]
+    pub fn works(&self) -> bool {
+        !self.buffers.work.is_empty()
     }
 
     /// Power (W) at which the forces of the last evaluation that have no potential do work on bodies

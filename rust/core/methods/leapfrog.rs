@@ -40,39 +40,76 @@ impl Method for Leapfrog {
         span: Span,
         scratch: &mut Scratch,
     ) -> Result<()> {
+        prepare(forces, motion, span.start, scratch)?;
         for k in 0..span.substeps {
-            step(forces, motion, (span.time(k), span.time(k + 1), span.h()), scratch)?;
+            step(forces, motion, (span.time(k), span.h()), scratch)?;
         }
         Ok(())
     }
 }
 
-/// One step of length h from `start` to `end`. Compositions of it call it with h of either sign.
+/// Accelerations by forces that are steady over a span need asking only once.
+pub fn prepare(
+    forces: &mut Forces<'_>,
+    motion: &Motion<'_>,
+    time: Real,
+    scratch: &mut Scratch,
+) -> Result<()> {
+    let a = &mut scratch.accelerations;
+    a.resize(motion.poses.len(), Twist::ZERO);
+    if forces.fields.is_empty() {
+        forces.accelerate_without_resistance(time, motion.poses, motion.twists, a)?;
+    }
+    Ok(())
+}
+
+/// One step of length h from a time on, after [`prepare`]. Compositions of it call it with h of
+/// either sign.
 pub fn step(
     forces: &mut Forces<'_>,
     motion: &mut Motion<'_>,
-    (start, end, h): (Real, Real, Real),
+    (time, h): (Real, Real),
     scratch: &mut Scratch,
 ) -> Result<()> {
     if forces.fields.is_empty() {
-        kick(forces, motion, (start, h / 2.0), scratch)?;
+        kick(forces, motion, &scratch.accelerations, h / 2.0);
         drift(forces, motion, h)?;
-        return kick(forces, motion, (end, h / 2.0), scratch);
+        kick(forces, motion, &scratch.accelerations, h / 2.0);
+        return Ok(());
     }
     drift(forces, motion, h / 2.0)?;
-    kick(forces, motion, (start + h / 2.0, h), scratch)?;
+    if forces.velocity_dependent() {
+        implicit_kick(forces, motion, (time + h / 2.0, h), scratch)?;
+    } else {
+        let a = &mut scratch.accelerations;
+        forces.accelerate_without_resistance(time + h / 2.0, motion.poses, motion.twists, a)?;
+        kick(forces, motion, a, h);
+    }
     drift(forces, motion, h / 2.0)
 }
 
 fn drift(forces: &Forces<'_>, motion: &mut Motion<'_>, h: Real) -> Result<()> {
+    if !forces.resistance {
+        super::drift(motion.poses, motion.twists, h);
+        return Ok(());
+    }
     motion.ledger.dissipated += forces.drift(h, motion.poses, motion.twists)?;
     Ok(())
 }
 
-/// v₁ = v₀ + a(t, x, ½(v₀ + v₁))·h. Where forces depend on velocities that is solved by iteration, to
-/// the last digits, so that the step stays reversible and of second order. The work of a force over a
-/// kick is exactly its power at the mean velocity, times h.
-fn kick(
+/// v += a·h. The work of a force over a kick is exactly its mean power times h.
+fn kick(forces: &Forces<'_>, motion: &mut Motion<'_>, accelerations: &[Twist], h: Real) {
+    if !forces.works() {
+        return super::kick(motion.twists, accelerations, h);
+    }
+    let before = forces.working_power(motion.twists);
+    super::kick(motion.twists, accelerations, h);
+    motion.ledger.work += 0.5 * h * (before + forces.working_power(motion.twists));
+}
+
+/// v₁ = v₀ + a(t, x, ½(v₀ + v₁))·h where forces depend on velocities, solved by iteration to the last
+/// digits, so that the step stays reversible and of second order.
+fn implicit_kick(
     forces: &mut Forces<'_>,
     motion: &mut Motion<'_>,
     (time, h): (Real, Real),
@@ -80,21 +117,19 @@ fn kick(
 ) -> Result<()> {
     const MOST: usize = 60;
     let Scratch { accelerations, before, middle, .. } = scratch;
-    let rounds = if forces.velocity_dependent() { MOST } else { 1 };
-    accelerations.resize(motion.poses.len(), Twist::ZERO);
     before.clear();
     before.extend_from_slice(motion.twists);
     middle.clone_from(before);
-    for round in 1..=rounds {
+    for _ in 0..MOST {
         forces.accelerate_without_resistance(time, motion.poses, middle, accelerations)?;
         motion.twists.copy_from_slice(before);
         super::kick(motion.twists, accelerations, h);
         let change = to_mean(middle, before, motion.twists);
-        if rounds == 1 || change <= 4.0 * Real::EPSILON {
+        if change <= 4.0 * Real::EPSILON {
             motion.ledger.work += h * forces.working_power(middle);
             return Ok(());
         }
-        if round == MOST || !change.is_finite() {
+        if !change.is_finite() {
             break;
         }
     }

@@ -66,11 +66,12 @@ impl Method for Yoshida {
     ) -> Result<()> {
         let inward = self.weights.iter();
         let outward = self.weights.iter().rev().skip(1);
+        leapfrog::prepare(forces, motion, span.start, scratch)?;
         for k in 0..span.substeps {
             let mut time = span.time(k);
             for weight in inward.clone().chain(outward.clone()) {
                 let h = weight * span.h();
-                leapfrog::step(forces, motion, (time, time + h, h), scratch)?;
+                leapfrog::step(forces, motion, (time, h), scratch)?;
                 time += h;
             }
         }

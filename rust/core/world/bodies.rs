@@ -69,6 +69,12 @@ impl<'a> BodyRef<'a> {
         self.bodies.poses[self.index].position
     }
 
+    /// Centre of mass in the body's frame (m).
+    #[must_use]
+    pub fn local_center(&self) -> Vec2 {
+        self.bodies.local_centers[self.index]
+    }
+
     /// Angle (rad), unwrapped.
     #[must_use]
     pub fn angle(&self) -> Real {

@@ -4,6 +4,17 @@ use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Twist, Vec2, Wrench};
 use crate::world::World;
 
+fn vectors(out: &mut [Real], vector: impl Fn(usize) -> Vec2) {
+    for (i, pair) in out.chunks_exact_mut(2).enumerate() {
+        let v = vector(i);
+        (pair[0], pair[1]) = (v.x, v.y);
+    }
+}
+
+fn numbers(out: &mut [Real], number: impl Fn(usize) -> Real) {
+    out.iter_mut().enumerate().for_each(|(i, x)| *x = number(i));
+}
+
 /// A quantity of every body, in body order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Column {
@@ -31,7 +42,9 @@ impl Column {
         }
     }
 
-    const fn name(self) -> &'static str {
+    /// Name, as Python writes it.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Positions => "positions",
             Self::Angles => "angles",
@@ -46,18 +59,37 @@ impl Column {
 impl World {
     /// Appends a column to `out`: x, y, x, y, … of vectors, one number after the other of scalars.
     pub fn read_column(&self, column: Column, out: &mut Vec<Real>) {
+        let start = out.len();
+        out.resize(start + self.state.bodies.len() * column.width(), 0.0);
+        // OK because the length is that of the column.
+        let _ = self.fill_column(column, &mut out[start..]);
+    }
+
+    /// Fills `out` with a column, in the order of [`World::read_column`].
+    ///
+    /// # Errors
+    /// A wrong length; `out` stays as it was.
+    pub fn fill_column(&self, column: Column, out: &mut [Real]) -> Result<()> {
+        self.check_length(column, out.len())?;
         let bodies = &self.state.bodies;
-        let mut vector = |v: Vec2| out.extend([v.x, v.y]);
         match column {
-            Column::Positions => {
-                (0..bodies.len()).for_each(|i| vector(bodies.origin(i).position));
-            }
-            Column::Velocities => bodies.twists.iter().for_each(|twist| vector(twist.linear)),
-            Column::Forces => bodies.forces.iter().for_each(|wrench| vector(wrench.force)),
-            Column::Angles => out.extend(bodies.poses.iter().map(|pose| pose.angle)),
-            Column::AngularVelocities => out.extend(bodies.twists.iter().map(|v| v.angular)),
-            Column::Torques => out.extend(bodies.forces.iter().map(|wrench| wrench.torque)),
+            Column::Positions => vectors(out, |i| bodies.origin(i).position),
+            Column::Velocities => vectors(out, |i| bodies.twists[i].linear),
+            Column::Forces => vectors(out, |i| bodies.forces[i].force),
+            Column::Angles => numbers(out, |i| bodies.poses[i].angle),
+            Column::AngularVelocities => numbers(out, |i| bodies.twists[i].angular),
+            Column::Torques => numbers(out, |i| bodies.forces[i].torque),
         }
+        Ok(())
+    }
+
+    fn check_length(&self, column: Column, length: usize) -> Result<()> {
+        let n = self.state.bodies.len();
+        if length == n * column.width() {
+            return Ok(());
+        }
+        let allowed = format!("{} numbers for {n} bodies", n * column.width());
+        Err(Error::invalid(column.name(), format!("{length} numbers"), allowed))
     }
 
     /// Sets a column from as many numbers as [`World::read_column`] gives.
@@ -66,15 +98,8 @@ impl World {
     /// A wrong count, a number that is not finite, a velocity that a static body or a locked axis
     /// does not allow; the world stays as it was.
     pub fn write_column(&mut self, column: Column, values: &[Real]) -> Result<()> {
+        self.check_length(column, values.len())?;
         let n = self.state.bodies.len();
-        if values.len() != n * column.width() {
-            let allowed = format!("{} numbers for {n} bodies", n * column.width());
-            return Err(Error::invalid(
-                column.name(),
-                format!("{} numbers", values.len()),
-                allowed,
-            ));
-        }
         for (place, value) in values.iter().enumerate() {
             let named = || format!("{}[{}]", column.name(), place / column.width());
             if !value.is_finite() {

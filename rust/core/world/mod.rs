@@ -302,6 +302,12 @@ impl World {
         self.state.schedules.remove(schedule).map(drop)
     }
 
+    /// Handles of the schedules, in the order of [`World::schedules`].
+    #[must_use]
+    pub fn schedule_handles(&self) -> &[ScheduleHandle] {
+        self.state.schedules.handles()
+    }
+
     /// The schedules.
     #[must_use]
     pub fn schedules(&self) -> &[Schedule] {

@@ -20,6 +20,8 @@ pub struct Plan {
     pub(super) single: Vec<usize>,
     /// A field acts: all bodies, this many, move by a method, together.
     pub(super) together: usize,
+    /// Air or damping acts on a body that a method moves.
+    pub(super) resistance: bool,
     /// Some body has a constant force.
     pub(super) forces: bool,
 }
@@ -32,6 +34,7 @@ impl Plan {
             ..Self::default()
         };
         for (i, info) in bodies.infos.iter().enumerate() {
+            plan.resistance |= has_drag(info, settings.air) || is_damped(info);
             let dynamic = info.def.kind == BodyKind::Dynamic;
             let constant = settings.closed_form && !has_drag(info, settings.air);
             match info.def.kind {
@@ -46,9 +49,9 @@ impl Plan {
         plan
     }
 
-    /// The bodies whose solution is known.
-    pub(super) fn solved(&self) -> impl Iterator<Item = usize> {
-        self.closed.iter().chain(&self.damped).copied()
+    /// Every body that moves.
+    pub(super) fn moving(&self) -> impl Iterator<Item = usize> {
+        self.closed.iter().chain(&self.damped).copied().chain(self.runs().flatten())
     }
 
     /// The runs of bodies that a method moves, each an island of its own.

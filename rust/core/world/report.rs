@@ -92,7 +92,7 @@ impl Trajectory {
     /// From the centres of mass to the bodies' frames.
     pub(super) fn in_frames(&mut self, bodies: &Bodies) {
         for (place, pose) in self.poses.iter_mut().enumerate() {
-            let local = bodies.infos[place % self.bodies].local_center;
+            let local = bodies.local_centers[place % self.bodies];
             if local != crate::math::Vec2::zeros() {
                 pose.position -= pose.rot().apply(local);
             }

@@ -4,8 +4,10 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
+use crate::body::BodyHandle;
 use crate::error::{Error, Result};
-use crate::forces::{BuiltInField, ForceField};
+use crate::forces::{BuiltInField, FieldHandle, ForceField, Schedule, ScheduleHandle};
+use crate::math::Real;
 use crate::methods;
 use crate::world::{State, World};
 
@@ -41,6 +43,42 @@ impl World {
 }
 
 impl Snapshot {
+    /// Handles of its bodies, in body order.
+    #[must_use]
+    pub fn bodies(&self) -> &[BodyHandle] {
+        self.state.bodies.handles()
+    }
+
+    /// Handles of its fields, in the order of [`Snapshot::fields`].
+    #[must_use]
+    pub fn field_handles(&self) -> &[FieldHandle] {
+        self.state.field_map.handles()
+    }
+
+    /// Its fields.
+    #[must_use]
+    pub fn fields(&self) -> &[Arc<dyn ForceField>] {
+        &self.fields
+    }
+
+    /// Handles of its schedules, in the order of [`Snapshot::schedules`].
+    #[must_use]
+    pub fn schedule_handles(&self) -> &[ScheduleHandle] {
+        self.state.schedules.handles()
+    }
+
+    /// Its schedules.
+    #[must_use]
+    pub fn schedules(&self) -> &[Schedule] {
+        self.state.schedules.values()
+    }
+
+    /// World time (s).
+    #[must_use]
+    pub fn time(&self) -> Real {
+        self.state.clock.now
+    }
+
     /// A world that continues from here.
     #[must_use]
     pub fn to_world(&self) -> World {
@@ -90,5 +128,28 @@ impl Snapshot {
         }
         stored.state.bodies.rebuild();
         Ok(Self { state: stored.state, fields })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::BodyDef;
+    use crate::math::vec2;
+    use crate::shapes::Shape;
+
+    #[test]
+    fn bytes_hold_bodies_with_and_without_what_is_optional() {
+        let mut world = World::default();
+        let ball = BodyDef::new(Shape::circle(1.0).unwrap());
+        world.add_body(ball.clone()).unwrap();
+        let named = BodyDef { name: Some("ball".into()), inertia: Some(2.0), ..ball };
+        world.add_body(BodyDef { velocity: vec2(1.0, 2.0), ..named }).unwrap();
+        let bytes = world.snapshot().to_bytes().unwrap();
+        let mut copy = Snapshot::from_bytes(&bytes, Vec::new()).unwrap().to_world();
+        world.steps(0.1, 10).unwrap();
+        copy.steps(0.1, 10).unwrap();
+        assert_eq!(world.bodies().poses, copy.bodies().poses);
+        assert_eq!(world.bodies().infos[1].def, copy.bodies().infos[1].def);
     }
 }

@@ -1,20 +1,20 @@
 //! One step, and many.
 
+use std::ops::Range;
 use std::time::Instant;
 
 use crate::body::Bodies;
 use crate::error::{Error, Result, check};
-use crate::forces::{Forces, Ledger};
+use crate::forces::{BoxError, Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span};
-use crate::world::{Clock, State, StepReport, World};
+use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Backup {
-    poses: Vec<Pose>,
-    twists: Vec<Twist>,
+    moving: Vec<(usize, Pose, Twist)>,
     /// Forces for the next step; empty where there are none.
     applied: Vec<Wrench>,
     clock: Clock,
@@ -38,6 +38,26 @@ impl World {
     pub fn steps(&mut self, dt: Real, count: u32) -> Result<()> {
         check::positive("dt", dt)?;
         self.attempt(|world| (0..count).try_for_each(|_| world.tick(dt)))
+    }
+
+    /// The same, asking `watch` after each step whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`World::step`], and [`Error::Interrupted`] with what `watch` said; the world is then as it
+    /// was before the first of the steps.
+    pub fn steps_watched(
+        &mut self,
+        dt: Real,
+        count: u32,
+        watch: &mut dyn FnMut() -> std::result::Result<(), BoxError>,
+    ) -> Result<()> {
+        check::positive("dt", dt)?;
+        self.attempt(|world| {
+            (0..count).try_for_each(|_| {
+                world.tick(dt)?;
+                watch().map_err(|source| Error::Interrupted { source })
+            })
+        })
     }
 
     /// One step: a table of contents.
@@ -67,7 +87,10 @@ impl World {
 
     /// Runs `work`; if it fails, the world is put back as it was.
     pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
-        self.scratch.backup.save(&self.state, self.applied);
+        self.planned();
+        if let Some(plan) = &self.plan {
+            self.scratch.backup.save(&self.state, plan, self.applied);
+        }
         let report = std::mem::take(&mut self.report);
         let result = work(self);
         if result.is_err() {
@@ -135,7 +158,7 @@ impl World {
     fn advance_span(&mut self, span: Span) -> Result<()> {
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
-        let result = plan.runs().try_for_each(|run| self.advance_run(run, span));
+        let result = plan.runs().try_for_each(|run| self.advance_run(run, span, plan.resistance));
         self.plan = Some(plan);
         result
     }
@@ -160,9 +183,9 @@ impl World {
     }
 
     /// Moves a run of bodies by the world's method.
-    fn advance_run(&mut self, run: std::ops::Range<usize>, span: Span) -> Result<()> {
+    fn advance_run(&mut self, run: Range<usize>, span: Span, resistance: bool) -> Result<()> {
         let method = self.method;
-        let (mut forces, mut motion, scratch) = self.split(run);
+        let (mut forces, mut motion, scratch) = self.split(run, resistance);
         method.run(&mut forces, &mut motion, span, scratch)?;
         let evaluations = forces.evaluations;
         self.report.evaluations += evaluations;
@@ -174,7 +197,8 @@ impl World {
     /// What a method needs for a run of bodies.
     pub(super) fn split(
         &mut self,
-        run: std::ops::Range<usize>,
+        run: Range<usize>,
+        resistance: bool,
     ) -> (Forces<'_>, Motion<'_>, &mut crate::methods::Scratch) {
         let Self { state, scratch, fields, .. } = self;
         let State { bodies, settings, ledger, .. } = state;
@@ -188,6 +212,7 @@ impl World {
             gravity: settings.gravity,
             air: settings.air,
             fields,
+            resistance,
             buffers: &mut scratch.forces,
             evaluations: 0,
         };
@@ -200,8 +225,7 @@ impl World {
         self.report.duration += dt;
         let Some(plan) = &self.plan else { return Ok(()) };
         let bodies = &self.state.bodies;
-        let mut moved = plan.solved().chain(plan.runs().flatten());
-        if let Some(body) = moved.find(|&i| !is_finite(bodies, i)) {
+        if let Some(body) = plan.moving().find(|&i| !is_finite(bodies, i)) {
             let hint = "check forces, velocities and dt; the world is as before the call";
             let time = self.time();
             return Err(Error::NotFinite { time, what: "position or velocity", body, hint });
@@ -221,24 +245,26 @@ fn is_finite(bodies: &Bodies, i: usize) -> bool {
 }
 
 impl Backup {
-    fn save(&mut self, state: &State, applied: bool) {
+    fn save(&mut self, state: &State, plan: &Plan, applied: bool) {
+        let bodies = &state.bodies;
+        self.moving.clear();
+        self.moving.extend(plan.moving().map(|i| (i, bodies.poses[i], bodies.twists[i])));
         self.applied.clear();
         if applied {
-            self.applied.extend_from_slice(&state.bodies.applied);
+            self.applied.extend_from_slice(&bodies.applied);
         }
-        self.poses.clone_from(&state.bodies.poses);
-        self.twists.clone_from(&state.bodies.twists);
         (self.clock, self.ledger) = (state.clock, state.ledger);
     }
 
     /// Puts the state back, and says whether forces wait for the next step.
     fn restore(&self, state: &mut State) -> bool {
+        for &(i, pose, twist) in &self.moving {
+            (state.bodies.poses[i], state.bodies.twists[i]) = (pose, twist);
+        }
         let applied = !self.applied.is_empty();
         if applied {
             state.bodies.applied.clone_from(&self.applied);
         }
-        state.bodies.poses.clone_from(&self.poses);
-        state.bodies.twists.clone_from(&self.twists);
         (state.clock, state.ledger) = (self.clock, self.ledger);
         applied
     }

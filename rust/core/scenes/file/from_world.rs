@@ -54,7 +54,7 @@ fn body(world: &World, i: usize) -> SceneBody {
     let bodies = world.bodies();
     let def = bodies.def(i);
     let frame = Pose::new(def.position, def.angle);
-    let (center, found) = (bodies.poses[i].position, frame.apply(bodies.infos[i].local_center));
+    let (center, found) = (bodies.poses[i].position, frame.apply(bodies.local_centers[i]));
     let mut body = SceneBody::from(def);
     if bits(center) != bits(found) {
         body.center_at = Some(center);

@@ -1,0 +1,1 @@
+"""The report: every scene by every method, as rows, figures and one page."""

@@ -1,0 +1,141 @@
+"""The page: one file of HTML that needs nothing else."""
+
+from __future__ import annotations
+
+import math
+from datetime import date
+from html import escape
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+from culbuto import _native
+from culbuto.report import style
+from culbuto.report.measure import Results, SceneResult, versions
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from pathlib import Path
+
+    from culbuto.catalogue import Check, MethodCheck, Verdict
+    from culbuto.study import Row, Study
+
+TARGETS = (1e-2, 1e-4, 1e-8)
+
+
+def number(value: float | None) -> str:
+    """Two digits: 2.3·10⁻⁵."""
+    if value is None:
+        return "–"
+    if math.isinf(value):
+        return "∞"
+    if value == 0:
+        return "0"
+    power = math.floor(math.log10(abs(value)))
+    digits = f"{value / 10.0**power:.1f}"
+    if digits == "10.0":
+        digits, power = "1.0", power + 1
+    if -2 <= power <= 2:
+        return f"{value:.2g}"
+    raised = str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"10{raised}" if digits == "1.0" else f"{digits}·10{raised}"
+
+
+def seconds(value: float) -> str:
+    """A time in the unit that suits it."""
+    for unit, size in (("s", 1.0), ("ms", 1e-3), ("µs", 1e-6)):
+        if value >= size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value / 1e-9:.3g} ns"
+
+
+def quickest(study: Study, target: float) -> Row | None:
+    """The row that takes the least time for an error of at most `target`."""
+    good = [row for row in study.rows if row.error <= target]
+    return min(good, key=lambda row: row.seconds_per_second, default=None)
+
+
+def order(row: MethodCheck) -> str:
+    """The measured order of a method, as the page shows it."""
+    if row.exact:
+        return "exact"
+    return "unclear" if row.order_measured is None else f"{row.order_measured:.2f}"
+
+
+def worst(checks: Iterable[Check]) -> Check:
+    """The check that comes nearest to what is asked, or fails most."""
+    return max(checks, key=lambda check: check.measured / check.asked)
+
+
+def mark(method: str) -> str:
+    """A method's mark in its colour, as a tiny SVG."""
+    look = style.METHODS.get(method)
+    if look is None:
+        return ""
+    colour = f"var({style.css_name(method)})"
+    return (
+        '<svg class="mark" viewBox="-1.4 -1.4 2.8 2.8" aria-hidden="true">'
+        f'<path d="{look.path}" style="fill: {colour}"/></svg>'
+    )
+
+
+def label(method: str) -> str:
+    """A method's name for people."""
+    return style.METHODS[method].label if method in style.METHODS else method
+
+
+def write_page(results: Results, folder: Path) -> list[Path]:
+    """Writes index.html and figures/thrown-ball.svg (needs matplotlib and jinja2)."""
+    import jinja2  # noqa: PLC0415 — comes with an extra
+
+    from culbuto.report import figures  # noqa: PLC0415 — matplotlib does, too
+
+    template = files("culbuto.report").joinpath("page.html.j2").read_text("utf-8")
+    environment = jinja2.Environment(
+        autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
+    )
+    helpers = (number, seconds, quickest, order, worst, mark, label)
+    environment.globals.update({helper.__name__: helper for helper in helpers})
+    panels = [
+        style.inline(figure, f"throw{i}", "A thrown ball")
+        for i, figure in enumerate(figures.throw_panels(results.throw))
+    ]
+    page = environment.from_string(template).render(
+        results=results,
+        versions=versions(),
+        today=date.today().isoformat(),
+        methods=_native.methods(),
+        targets=TARGETS,
+        panels=panels,
+        scenes=[_scene(result) for result in results.scenes],
+        light=style.variables(dark=False),
+        dark=style.variables(dark=True),
+    )
+    pictures = folder / "figures"
+    pictures.mkdir(parents=True, exist_ok=True)
+    index, throw = folder / "index.html", pictures / "thrown-ball.svg"
+    index.write_text(page, "utf-8")
+    title = "A thrown ball at several ticks a second, and error against run time"
+    throw.write_text(style.standalone(figures.throw_figure(results.throw), title), "utf-8")
+    return [index, throw]
+
+
+def _scene(result: SceneResult) -> dict[str, Any]:
+    """What the template needs of a scene."""
+    drawn: list[str] = []
+    if result.study is not None:
+        from culbuto.report.figures import scene_figures  # noqa: PLC0415 — comes with an extra
+
+        title = escape(result.scene.title, quote=True)
+        names = (f"{result.scene.name}-time", f"{result.scene.name}-order")
+        figures = scene_figures(result.study)
+        drawn = [style.inline(f, n, title) for f, n in zip(figures, names, strict=True)]
+    as_it_comes = _as_it_comes(result.verdict)
+    return {"result": result, "scene": result.scene, "verdict": result.verdict,
+            "study": result.study, "figures": drawn, **as_it_comes}  # fmt: skip
+
+
+def _as_it_comes(verdict: Verdict) -> dict[str, Check | None]:
+    """The engine's own error at the scene's fixed step, and with its tolerance."""
+    errors = [check for check in verdict.checks if check.what.startswith("error, ")]
+    found = {check.column: check for check in errors}
+    return {"fixed": found.get("fixed"), "toleranced": found.get("tolerance")}

@@ -1,0 +1,445 @@
+//! The Body of Python: one object per body, as long as the body lives.
+
+use culbuto::body::{Body as Kind, BodyDef, Locks};
+use culbuto::math::{Real, Wrench};
+use culbuto::world::{BodyMut, BodyRef};
+use pyo3::gc::{PyTraverseError, PyVisit};
+use pyo3::prelude::*;
+use pyo3::types::PyTuple;
+
+use crate::convert::Vec2Arg;
+use crate::error::to_py;
+use crate::parts::{Place, Reduced, reduced};
+use crate::shape::parts;
+use crate::shapes::to_python;
+use crate::vec2::Vec2;
+use crate::words::{KindArg, Width, WidthArg, kind_name};
+use crate::world::World;
+
+/// A body of a world. Worlds make bodies: `World.add_body`.
+///
+/// There is one object per body, so bodies are compared by identity and keep attributes of the user's own.
+/// A body that was removed raises `StaleHandleError`.
+#[pyclass(frozen, dict, weakref, module = "culbuto")]
+pub struct Body {
+    pub place: Place<Kind>,
+}
+
+/// Reaching the body in the core.
+impl Body {
+    #[inline]
+    fn read<T>(&self, py: Python<'_>, read: impl FnOnce(BodyRef<'_>) -> T) -> PyResult<T> {
+        let core = self.place.world.get().core(py)?;
+        let handle = self.place.handle()?;
+        core.body(handle).map(read).map_err(to_py)
+    }
+
+    #[inline]
+    fn edit(
+        &self,
+        py: Python<'_>,
+        edit: impl FnOnce(&mut BodyMut<'_>) -> culbuto::error::Result<()>,
+    ) -> PyResult<()> {
+        let mut core = self.place.world.get().core(py)?;
+        let handle = self.place.handle()?;
+        core.body_mut(handle).and_then(|mut body| edit(&mut body)).map_err(to_py)
+    }
+
+    fn def<T>(&self, py: Python<'_>, read: impl FnOnce(&BodyDef) -> T) -> PyResult<T> {
+        self.read(py, |body| read(&body.info().def))
+    }
+
+    fn set_locks(&self, py: Python<'_>, change: impl FnOnce(&mut Locks)) -> PyResult<()> {
+        self.edit(py, |body| {
+            let mut locks = body.get().info().def.locks;
+            change(&mut locks);
+            body.set_locks(locks)
+        })
+    }
+
+    pub fn lives_in(&self, world: &Bound<'_, World>) -> bool {
+        self.place.lives_in(world)
+    }
+
+    /// Removes the body and its schedules; their objects stay, and say that they were removed.
+    pub fn remove_from(&self, world: &Bound<'_, World>) -> PyResult<()> {
+        self.place.check_world(world)?;
+        let own = world.get();
+        let mut core = own.core(world.py())?;
+        let handle = self.place.handle()?;
+        let index = core.bodies().index(handle).map_err(to_py)?;
+        core.remove_body(handle).map_err(to_py)?;
+        let mut objects = own.objects();
+        let body = (index < objects.bodies.len()).then(|| objects.bodies.swap_remove(index));
+        self.place.leave();
+        let schedules = objects.keep_schedules(core.schedule_handles());
+        drop(objects);
+        drop(core);
+        drop((body, schedules));
+        Ok(())
+    }
+}
+
+/// The motion.
+#[pymethods]
+impl Body {
+    /// Position of the body's frame (m).
+    #[getter]
+    fn position(&self, py: Python<'_>) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.position()))
+    }
+
+    #[setter]
+    fn set_position(&self, py: Python<'_>, position: Vec2Arg) -> PyResult<()> {
+        self.edit(py, |body| body.set_position(position.0))
+    }
+
+    /// Angle of the body's frame (rad), not wrapped.
+    #[getter]
+    fn angle(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |body| body.angle())
+    }
+
+    #[setter]
+    fn set_angle(&self, py: Python<'_>, angle: Real) -> PyResult<()> {
+        self.edit(py, |body| body.set_angle(angle))
+    }
+
+    /// Velocity of the centre of mass (m/s).
+    #[getter]
+    fn velocity(&self, py: Python<'_>) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.velocity()))
+    }
+
+    #[setter]
+    fn set_velocity(&self, py: Python<'_>, velocity: Vec2Arg) -> PyResult<()> {
+        self.edit(py, |body| body.set_velocity(velocity.0))
+    }
+
+    /// Angular velocity (rad/s).
+    #[getter]
+    fn angular_velocity(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |body| body.angular_velocity())
+    }
+
+    #[setter]
+    fn set_angular_velocity(&self, py: Python<'_>, angular: Real) -> PyResult<()> {
+        self.edit(py, |body| body.set_angular_velocity(angular))
+    }
+
+    /// Centre of mass in the world (m).
+    #[getter]
+    fn center_of_mass(&self, py: Python<'_>) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.center_of_mass()))
+    }
+
+    /// Constant force through the centre of mass (N), until changed.
+    #[getter]
+    fn force(&self, py: Python<'_>) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.force().force))
+    }
+
+    #[setter]
+    fn set_force(&self, py: Python<'_>, force: Vec2Arg) -> PyResult<()> {
+        self.edit(py, |body| {
+            let torque = body.get().force().torque;
+            body.set_force(Wrench::new(force.0, torque))
+        })
+    }
+
+    /// Constant torque (N·m), until changed.
+    #[getter]
+    fn torque(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |body| body.force().torque)
+    }
+
+    #[setter]
+    fn set_torque(&self, py: Python<'_>, torque: Real) -> PyResult<()> {
+        self.edit(py, |body| {
+            let force = body.get().force().force;
+            body.set_force(Wrench::new(force, torque))
+        })
+    }
+
+    /// ½mv² + ½Iω² (J); 0 of a body that does not answer to forces.
+    #[getter]
+    fn kinetic_energy(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |body| body.kinetic_energy())
+    }
+
+    /// mv (kg·m/s).
+    #[getter]
+    fn momentum(&self, py: Python<'_>) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.mass().mass * body.velocity()))
+    }
+
+    /// Velocity (m/s) of the point of the body that is at a world point.
+    fn velocity_at(&self, py: Python<'_>, point: Vec2Arg) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.velocity_at(point.0)))
+    }
+
+    /// World coordinates of a point in the body's frame.
+    fn world_point(&self, py: Python<'_>, local: Vec2Arg) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.world_point(local.0)))
+    }
+
+    /// Coordinates in the body's frame of a world point.
+    fn local_point(&self, py: Python<'_>, world: Vec2Arg) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.local_point(world.0)))
+    }
+
+    /// Adds a force (N) for the next step, through the centre of mass or at a world point.
+    #[pyo3(signature = (force, at=None))]
+    fn apply_force(&self, py: Python<'_>, force: Vec2Arg, at: Option<Vec2Arg>) -> PyResult<()> {
+        self.edit(py, |body| body.apply_force(force.0, at.map(|at| at.0)))
+    }
+
+    /// Adds a torque (N·m) for the next step.
+    fn apply_torque(&self, py: Python<'_>, torque: Real) -> PyResult<()> {
+        self.edit(py, |body| body.apply_torque(torque))
+    }
+
+    /// Changes the velocities at once by an impulse (N·s), through the centre of mass or at a world point.
+    #[pyo3(signature = (impulse, at=None))]
+    fn apply_impulse(&self, py: Python<'_>, impulse: Vec2Arg, at: Option<Vec2Arg>) -> PyResult<()> {
+        self.edit(py, |body| body.apply_impulse(impulse.0, at.map(|at| at.0)))
+    }
+
+    /// Changes the angular velocity at once by an angular impulse (N·m·s).
+    fn apply_angular_impulse(&self, py: Python<'_>, impulse: Real) -> PyResult<()> {
+        self.edit(py, |body| body.apply_angular_impulse(impulse))
+    }
+}
+
+/// What the body is.
+#[pymethods]
+impl Body {
+    /// "dynamic", "static" or "kinematic". Making a body static stops it.
+    #[getter]
+    fn kind(&self, py: Python<'_>) -> PyResult<&'static str> {
+        self.def(py, |def| kind_name(def.kind))
+    }
+
+    #[setter]
+    fn set_kind(&self, py: Python<'_>, kind: KindArg) -> PyResult<()> {
+        self.edit(py, |body| body.set_kind(kind.0))
+    }
+
+    /// Name, or None.
+    #[getter]
+    fn name(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        self.def(py, |def| def.name.clone())
+    }
+
+    #[setter]
+    fn set_name(&self, py: Python<'_>, name: Option<String>) -> PyResult<()> {
+        self.edit(py, |body| body.set_name(name))
+    }
+
+    /// The shapes, in the body's frame; empty for a point. May be set to a shape, several or None.
+    #[getter]
+    fn shapes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let parts = self.def(py, |def| def.shapes.clone())?;
+        let shapes: PyResult<Vec<_>> = parts.into_iter().map(|part| to_python(py, part)).collect();
+        PyTuple::new(py, shapes?)
+    }
+
+    #[setter]
+    fn set_shapes(&self, py: Python<'_>, shapes: Option<&Bound<'_, PyAny>>) -> PyResult<()> {
+        let parts = parts(shapes)?;
+        self.edit(py, |body| body.set_shapes(parts))
+    }
+
+    /// Mass (kg). Setting None lets it follow from the densities again.
+    #[getter]
+    fn mass(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |body| body.mass().mass)
+    }
+
+    #[setter]
+    fn set_mass(&self, py: Python<'_>, mass: Option<Real>) -> PyResult<()> {
+        self.edit(py, |body| body.set_mass(mass))
+    }
+
+    /// Moment of inertia about the centre of mass (kg·m²). Setting None lets it follow from shapes and mass again.
+    #[getter]
+    fn inertia(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |body| body.mass().inertia)
+    }
+
+    #[setter]
+    fn set_inertia(&self, py: Python<'_>, inertia: Option<Real>) -> PyResult<()> {
+        self.edit(py, |body| body.set_inertia(inertia))
+    }
+
+    /// Density of shapes that have none of their own (kg/m²; kg/m of wires).
+    #[getter]
+    fn density(&self, py: Python<'_>) -> PyResult<Real> {
+        self.def(py, |def| def.density)
+    }
+
+    #[setter]
+    fn set_density(&self, py: Python<'_>, density: Real) -> PyResult<()> {
+        self.edit(py, |body| body.set_density(density))
+    }
+
+    /// Centre of mass in the body's frame (m). Setting None lets it follow from the shapes again; the
+    /// frame stays where it is.
+    #[getter]
+    fn local_center(&self, py: Python<'_>) -> PyResult<Vec2> {
+        self.read(py, |body| Vec2(body.local_center()))
+    }
+
+    #[setter]
+    fn set_local_center(&self, py: Python<'_>, center: Option<Vec2Arg>) -> PyResult<()> {
+        self.edit(py, |body| body.set_center_of_mass(center.map(|center| center.0)))
+    }
+
+    /// Whether the body cannot move along x. Locking stops it there.
+    #[getter]
+    fn lock_x(&self, py: Python<'_>) -> PyResult<bool> {
+        self.def(py, |def| def.locks.x)
+    }
+
+    #[setter]
+    fn set_lock_x(&self, py: Python<'_>, lock: bool) -> PyResult<()> {
+        self.set_locks(py, |locks| locks.x = lock)
+    }
+
+    /// Whether the body cannot move along y. Locking stops it there.
+    #[getter]
+    fn lock_y(&self, py: Python<'_>) -> PyResult<bool> {
+        self.def(py, |def| def.locks.y)
+    }
+
+    #[setter]
+    fn set_lock_y(&self, py: Python<'_>, lock: bool) -> PyResult<()> {
+        self.set_locks(py, |locks| locks.y = lock)
+    }
+
+    /// Whether the body cannot rotate. Locking stops its rotation.
+    #[getter]
+    fn lock_rotation(&self, py: Python<'_>) -> PyResult<bool> {
+        self.def(py, |def| def.locks.rotation)
+    }
+
+    #[setter]
+    fn set_lock_rotation(&self, py: Python<'_>, lock: bool) -> PyResult<()> {
+        self.set_locks(py, |locks| locks.rotation = lock)
+    }
+
+    /// How many times gravity acts.
+    #[getter]
+    fn gravity_scale(&self, py: Python<'_>) -> PyResult<Real> {
+        self.def(py, |def| def.gravity_scale)
+    }
+
+    #[setter]
+    fn set_gravity_scale(&self, py: Python<'_>, scale: Real) -> PyResult<()> {
+        self.edit(py, |body| body.set_gravity_scale(scale))
+    }
+
+    /// Rate at which the velocity against the air decays (1/s).
+    #[getter]
+    fn linear_damping(&self, py: Python<'_>) -> PyResult<Real> {
+        self.def(py, |def| def.linear_damping)
+    }
+
+    #[setter]
+    fn set_linear_damping(&self, py: Python<'_>, rate: Real) -> PyResult<()> {
+        self.edit(py, |body| {
+            let angular = body.get().info().def.angular_damping;
+            body.set_damping(rate, angular)
+        })
+    }
+
+    /// Rate at which the angular velocity decays (1/s).
+    #[getter]
+    fn angular_damping(&self, py: Python<'_>) -> PyResult<Real> {
+        self.def(py, |def| def.angular_damping)
+    }
+
+    #[setter]
+    fn set_angular_damping(&self, py: Python<'_>, rate: Real) -> PyResult<()> {
+        self.edit(py, |body| {
+            let linear = body.get().info().def.linear_damping;
+            body.set_damping(linear, rate)
+        })
+    }
+
+    /// C in the air drag ½ρCAv².
+    #[getter]
+    fn drag_coefficient(&self, py: Python<'_>) -> PyResult<Real> {
+        self.def(py, |def| def.drag_coefficient)
+    }
+
+    #[setter]
+    fn set_drag_coefficient(&self, py: Python<'_>, coefficient: Real) -> PyResult<()> {
+        self.edit(py, |body| {
+            let width = body.get().info().def.drag_width;
+            body.set_drag(coefficient, width)
+        })
+    }
+
+    /// A in the air drag ½ρCAv²: "silhouette" (the true projected width), "bounding_box", or a width (m).
+    #[getter]
+    fn drag_width(&self, py: Python<'_>) -> PyResult<Width> {
+        self.def(py, |def| def.drag_width.into())
+    }
+
+    #[setter]
+    fn set_drag_width(&self, py: Python<'_>, width: WidthArg) -> PyResult<()> {
+        self.edit(py, |body| {
+            let coefficient = body.get().info().def.drag_coefficient;
+            body.set_drag(coefficient, width.0)
+        })
+    }
+}
+
+/// Its place in the world.
+#[pymethods]
+impl Body {
+    /// The world it is, or was, in.
+    #[getter]
+    fn world(&self, py: Python<'_>) -> Py<World> {
+        self.place.world.clone_ref(py)
+    }
+
+    /// Its place in body order, which arrays and lists follow.
+    #[getter]
+    fn index(&self, py: Python<'_>) -> PyResult<usize> {
+        self.read(py, |body| body.index())
+    }
+
+    /// Whether it was removed from its world.
+    #[getter]
+    fn removed(&self) -> bool {
+        !self.place.is_alive()
+    }
+
+    /// Removes the body, and the schedules on it, from its world.
+    fn remove(&self, py: Python<'_>) -> PyResult<()> {
+        self.remove_from(self.place.world.bind(py))
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> String {
+        if self.removed() {
+            return "<removed Body>".to_owned();
+        }
+        let seen = self.read(py, |body| {
+            let def = &body.info().def;
+            let name = def.name.as_ref().map_or_else(String::new, |name| format!(" {name:?}"));
+            let (kind, at) = (kind_name(def.kind), body.position());
+            format!("<{kind} Body{name} at ({:?}, {:?})>", at.x, at.y)
+        });
+        seen.unwrap_or_else(|_| "<Body of a world at work>".to_owned())
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        reduced(slf, "body", &slf.get().place)
+    }
+
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.place.traverse(&visit)
+    }
+}

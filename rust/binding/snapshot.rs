@@ -1,0 +1,350 @@
+//! Worlds that are kept, copied and sent: what each Python object becomes on the way.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use culbuto::World as Core;
+use culbuto::forces::ForceField;
+use culbuto::world::Snapshot as Kept;
+use pyo3::exceptions::PyValueError;
+use pyo3::gc::{PyTraverseError, PyVisit};
+use pyo3::prelude::*;
+use pyo3::types::{PyBytes, PyDict, PyTuple};
+
+use pyo3::PyClass;
+
+use crate::body::Body;
+use crate::error::to_py;
+use crate::field::Field;
+use crate::law::{Law, LawParts};
+use crate::parts::Place;
+use crate::schedule::Schedule;
+use crate::world::{Objects, World};
+
+/// A world as it was at one moment: to go back to, to keep, to send. It continues bit for bit.
+#[pyclass(frozen, weakref, module = "culbuto")]
+pub struct Snapshot {
+    kept: Kept,
+    /// The user's laws, in the order of the fields.
+    laws: Vec<Py<Law>>,
+    /// The world it is of, and the objects of then; none once it was pickled.
+    origin: Option<(Py<World>, Objects)>,
+}
+
+#[pymethods]
+impl Snapshot {
+    /// A snapshot from the bytes of another, and the user's fields that are not in them. For pickles.
+    #[new]
+    #[pyo3(signature = (data, laws=Vec::new()))]
+    fn new(py: Python<'_>, data: &[u8], laws: Vec<LawParts>) -> PyResult<Self> {
+        let (laws, shared) = make_laws(py, laws)?;
+        let kept = Kept::from_bytes(data, shared).map_err(to_py)?;
+        Ok(Self { kept, laws, origin: None })
+    }
+
+    /// World time (s).
+    #[getter]
+    fn time(&self) -> culbuto::math::Real {
+        self.kept.time()
+    }
+
+    /// Number of bodies.
+    fn __len__(&self) -> usize {
+        self.kept.bodies().len()
+    }
+
+    fn __bool__(&self) -> bool {
+        true
+    }
+
+    /// A new world that continues from here.
+    fn to_world<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, World>> {
+        World::assembled(py, self.kept.to_world(), &self.laws)
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Stored<'py>)> {
+        let (py, own) = (slf.py(), slf.get());
+        let data = own.kept.to_bytes().map_err(to_py)?;
+        let laws = own.laws.iter().map(|law| law.get().parts(py)).collect();
+        Ok((slf.get_type().into_any(), (PyBytes::new(py, &data), laws)))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<Snapshot of {} bodies at t = {:?} s>", self.__len__(), self.kept.time())
+    }
+
+    fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.laws.iter().try_for_each(|law| visit.call(law))?;
+        if let Some((world, objects)) = &self.origin {
+            visit.call(world)?;
+            objects.traverse(&visit)?;
+        }
+        Ok(())
+    }
+}
+
+/// What a pickle holds of a snapshot.
+type Stored<'py> = (Bound<'py, PyBytes>, Vec<LawParts>);
+
+/// Laws, and the engine's side of them.
+type Laws = (Vec<Py<Law>>, Vec<Arc<dyn ForceField>>);
+
+fn make_laws(py: Python<'_>, parts: Vec<LawParts>) -> PyResult<Laws> {
+    let (mut laws, mut shared) = (Vec::new(), Vec::new());
+    for parts in parts {
+        let law = Law::from_parts(py, parts)?;
+        shared.push(Law::shared(&law)?);
+        laws.push(law.unbind());
+    }
+    Ok((laws, shared))
+}
+
+impl Objects {
+    /// Shows the garbage collector all objects.
+    pub fn traverse(&self, visit: &PyVisit<'_>) -> Result<(), PyTraverseError> {
+        self.bodies.iter().try_for_each(|body| visit.call(body))?;
+        self.fields.iter().try_for_each(|field| visit.call(field))?;
+        self.schedules.iter().try_for_each(|schedule| visit.call(schedule))
+    }
+
+    fn copied(&self, py: Python<'_>) -> Self {
+        Self {
+            bodies: self.bodies.iter().map(|body| body.clone_ref(py)).collect(),
+            fields: self.fields.iter().map(|field| field.clone_ref(py)).collect(),
+            schedules: self.schedules.iter().map(|schedule| schedule.clone_ref(py)).collect(),
+        }
+    }
+
+    /// The user's laws, in the order of the fields.
+    fn laws(&self, py: Python<'_>) -> Vec<Py<Law>> {
+        let law = |field: &Py<Field>| field.get().law().map(|law| law.clone_ref(py));
+        self.fields.iter().filter_map(law).collect()
+    }
+
+    /// New objects for a core's bodies, fields and schedules.
+    fn new(world: &Bound<'_, World>, kept: &Kept, laws: &[Py<Law>]) -> PyResult<Self> {
+        let py = world.py();
+        let mut objects = Self::default();
+        for _ in kept.bodies() {
+            objects.bodies.push(Py::new(py, Body { place: Place::new(world) })?);
+        }
+        let mut laws = laws.iter();
+        for field in kept.fields() {
+            let own = if field.built_in().is_none() { laws.next() } else { None };
+            let law = own.map(|law| law.clone_ref(py));
+            objects.fields.push(Py::new(py, Field::new(world, law))?);
+        }
+        for _ in kept.schedules() {
+            objects.schedules.push(Py::new(py, Schedule { place: Place::new(world) })?);
+        }
+        Ok(objects)
+    }
+
+    /// Puts every object in its place. Called with the core locked.
+    fn enter(&self, kept: &Kept) {
+        for (body, handle) in self.bodies.iter().zip(kept.bodies()) {
+            body.get().place.enter(*handle);
+        }
+        for (field, handle) in self.fields.iter().zip(kept.field_handles()) {
+            field.get().place.enter(*handle);
+        }
+        for (schedule, handle) in self.schedules.iter().zip(kept.schedule_handles()) {
+            schedule.get().place.enter(*handle);
+        }
+    }
+
+    /// Takes every object out of its place. Called with the core locked.
+    fn leave(&self) {
+        self.bodies.iter().for_each(|body| body.get().place.leave());
+        self.fields.iter().for_each(|field| field.get().place.leave());
+        self.schedules.iter().for_each(|schedule| schedule.get().place.leave());
+    }
+
+    /// Keeps the present objects of bodies whose handles are the same.
+    fn keep_bodies(&mut self, py: Python<'_>, present: &[Py<Body>], kept: &Kept) {
+        let known = present.iter().filter_map(|body| Some((body.get().place.known()?, body)));
+        let known: HashMap<_, _> = known.collect();
+        for (body, handle) in self.bodies.iter_mut().zip(kept.bodies()) {
+            if let Some(present) = known.get(handle) {
+                *body = present.clone_ref(py);
+            }
+        }
+    }
+}
+
+impl World {
+    /// A world around a core.
+    pub fn assembled<'py>(
+        py: Python<'py>,
+        core: Core,
+        laws: &[Py<Law>],
+    ) -> PyResult<Bound<'py, Self>> {
+        let kept = core.snapshot();
+        let world = Bound::new(py, Self::from_core(core))?;
+        let objects = Objects::new(&world, &kept, laws)?;
+        objects.enter(&kept);
+        *world.get().objects() = objects;
+        Ok(world)
+    }
+
+    /// Takes a state and the objects that belong to it, instead of its own.
+    fn become_kept(&self, py: Python<'_>, kept: &Kept, objects: Objects) -> PyResult<()> {
+        let mut core = self.core(py)?;
+        let mut own = self.objects();
+        core.restore(kept);
+        own.leave();
+        objects.enter(kept);
+        let old = std::mem::replace(&mut *own, objects);
+        drop(own);
+        drop(core);
+        drop(old);
+        Ok(())
+    }
+}
+
+/// What a pickle holds of a world.
+type Pickled<'py> = (
+    Bound<'py, PyBytes>,
+    Vec<LawParts>,
+    Vec<Py<Body>>,
+    Vec<Py<Field>>,
+    Vec<Py<Schedule>>,
+    Bound<'py, PyAny>,
+);
+
+#[pymethods]
+impl World {
+    /// Keeps the world as it is: `restore` goes back to it.
+    fn snapshot(slf: &Bound<'_, Self>) -> PyResult<Snapshot> {
+        let py = slf.py();
+        let core = slf.get().core(py)?;
+        let (kept, objects) = (core.snapshot(), slf.get().objects().copied(py));
+        drop(core);
+        let laws = objects.laws(py);
+        Ok(Snapshot { kept, laws, origin: Some((slf.clone().unbind(), objects)) })
+    }
+
+    /// Goes back to a snapshot, of this world or of another. The objects of then are those of now again, the
+    /// removed ones too; what was added since is gone. From another world's snapshot, or one that was pickled, bodies
+    /// whose handles are the same keep their objects, and the rest is made anew.
+    fn restore(slf: &Bound<'_, Self>, snapshot: &Bound<'_, Snapshot>) -> PyResult<()> {
+        let (py, own) = (slf.py(), slf.get());
+        let Snapshot { kept, laws, origin } = snapshot.get();
+        let objects = match origin {
+            Some((world, objects)) if world.is(slf) => objects.copied(py),
+            _ => {
+                let mut objects = Objects::new(slf, kept, laws)?;
+                let present = own.objects().copied(py);
+                objects.keep_bodies(py, &present.bodies, kept);
+                objects
+            }
+        };
+        own.become_kept(py, kept, objects)
+    }
+
+    /// A world of its own in the same state; bodies take their attributes along, without copying those.
+    fn __copy__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, Self>> {
+        let (py, own) = (slf.py(), slf.get());
+        let core = own.core(py)?;
+        let (copy, objects) = (core.clone(), own.objects().copied(py));
+        drop(core);
+        let world = Self::assembled(py, copy, &objects.laws(py))?;
+        let made = world.get().objects().copied(py);
+        copy_attributes(slf, &world)?;
+        for (old, new) in objects.bodies.iter().zip(&made.bodies) {
+            copy_attributes(old.bind(py), new.bind(py))?;
+        }
+        for (old, new) in objects.fields.iter().zip(&made.fields) {
+            copy_attributes(old.bind(py), new.bind(py))?;
+        }
+        for (old, new) in objects.schedules.iter().zip(&made.schedules) {
+            copy_attributes(old.bind(py), new.bind(py))?;
+        }
+        Ok(world)
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>, Pickled<'py>)> {
+        let (py, own) = (slf.py(), slf.get());
+        let core = own.core(py)?;
+        let (kept, objects) = (core.snapshot(), own.objects().copied(py));
+        drop(core);
+        let data = PyBytes::new(py, &kept.to_bytes().map_err(to_py)?);
+        let laws = objects.laws(py).iter().map(|law| law.get().parts(py)).collect();
+        let Objects { bodies, fields, schedules } = objects;
+        let attributes = slf.getattr("__dict__")?;
+        let state = (data, laws, bodies, fields, schedules, attributes);
+        Ok((slf.get_type().into_any(), PyTuple::empty(py), state))
+    }
+
+    /// The part of this kind in a slot; a new one, to be put there, while the world is being unpickled.
+    #[pyo3(name = "_part")]
+    fn part<'py>(
+        slf: &Bound<'py, Self>,
+        kind: &str,
+        slot: Option<usize>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let py = slf.py();
+        let objects = slf.get().objects().copied(py);
+        let found = match kind {
+            "body" => in_slot(py, objects.bodies, slot, |body| body.get().place.slot()),
+            "field" => in_slot(py, objects.fields, slot, |field| field.get().place.slot()),
+            _ => in_slot(py, objects.schedules, slot, |schedule| schedule.get().place.slot()),
+        };
+        Ok(match (found, kind) {
+            (Some(found), _) => found,
+            (None, "body") => Bound::new(py, Body { place: Place::new(slf) })?.into_any(),
+            (None, "field") => Bound::new(py, Field::new(slf, None))?.into_any(),
+            (None, _) => Bound::new(py, Schedule { place: Place::new(slf) })?.into_any(),
+        })
+    }
+
+    fn __setstate__(slf: &Bound<'_, Self>, state: Pickled<'_>) -> PyResult<()> {
+        let py = slf.py();
+        let (data, laws, bodies, fields, schedules, attributes) = state;
+        let (laws, shared) = make_laws(py, laws)?;
+        let kept = Kept::from_bytes(data.as_bytes(), shared).map_err(to_py)?;
+        // Fields are made here, around the laws; their pickles find them by their place.
+        let mut objects = Objects::new(slf, &kept, &laws)?;
+        let counts = (kept.bodies().len(), kept.fields().len(), kept.schedules().len());
+        if (bodies.len(), fields.len(), schedules.len()) != counts {
+            return Err(PyValueError::new_err("this is no pickled world"));
+        }
+        let own = |world: &Py<Self>| world.is(slf);
+        let right = bodies.iter().all(|body| own(&body.get().place.world))
+            && fields.iter().all(|field| own(&field.get().place.world))
+            && schedules.iter().all(|schedule| own(&schedule.get().place.world));
+        if !right {
+            return Err(PyValueError::new_err("this is no pickled world"));
+        }
+        (objects.bodies, objects.schedules) = (bodies, schedules);
+        for (field, law) in fields.iter().zip(&objects.fields) {
+            field.get().adopt(law.get().law().map(|law| law.clone_ref(py)));
+        }
+        objects.fields = fields;
+        slf.getattr("__dict__")?.cast_into::<PyDict>()?.update(attributes.cast()?)?;
+        slf.get().become_kept(py, &kept, objects)
+    }
+}
+
+/// The object in a slot.
+fn in_slot<P: PyClass>(
+    py: Python<'_>,
+    objects: Vec<Py<P>>,
+    slot: Option<usize>,
+    slot_of: impl Fn(&Py<P>) -> Option<usize>,
+) -> Option<Bound<'_, PyAny>> {
+    let found = objects.into_iter().find(|object| slot.is_some() && slot_of(object) == slot);
+    found.map(|object| object.into_bound(py).into_any())
+}
+
+/// Gives the attributes of the user's own on one object to another.
+fn copy_attributes(from: &Bound<'_, PyAny>, to: &Bound<'_, PyAny>) -> PyResult<()> {
+    let (from, to) = (from.getattr("__dict__")?, to.getattr("__dict__")?);
+    to.cast::<PyDict>()?.update(from.cast()?)
+}
