@@ -6,7 +6,6 @@
 #[path = "common/worlds.rs"]
 mod worlds;
 
-use culbuto::body::DragWidth;
 use culbuto::forces::{Air, Attraction};
 use culbuto::math::{Real, Rot, Twist, Vec2, vec2};
 use culbuto::methods::REGISTRY;
@@ -54,16 +53,12 @@ const STEPS: u32 = 64;
 
 impl Rod {
     /// `mirror` = −1 turns left into right.
-    fn def(&self, mirror: Real, damping: Real, mode: Mode) -> BodyDef {
+    fn def(&self, mirror: Real, damping: Real) -> BodyDef {
         let (a, b) = self.sizes;
         let end = culbuto::shapes::ShapeDef::Circle {
             radius: 0.6 * b,
             center: vec2(mirror * a, 0.1 * b),
         };
-        // The width of a turning polygon has kinks, where the error of a step is hard to tell: `advance`
-        // may then be off by 1e4 times its tolerance. What is asked here is more.
-        let drag_width =
-            if let Mode::Step(_) = mode { DragWidth::Silhouette } else { DragWidth::Fixed(b) };
         let parts = [Shape::rectangle(a, b).unwrap(), Shape::new(end).unwrap()];
         BodyDef {
             mass: Some(self.mass),
@@ -75,7 +70,6 @@ impl Rod {
             torque: self.torque,
             linear_damping: damping,
             angular_damping: 0.5 * damping,
-            drag_width,
             ..BodyDef::compound(parts.map(Into::into))
         }
     }
@@ -91,7 +85,7 @@ impl Scene {
         world.set_gravity(self.gravity).unwrap();
         world.set_air(self.air).unwrap();
         for rod in &self.bodies {
-            world.add_body(rod.def(mirror, self.damping, mode)).unwrap();
+            world.add_body(rod.def(mirror, self.damping)).unwrap();
         }
         if let Some(strength) = self.pull {
             world.add_field(Attraction { strength, exponent: -2.0, softening: self.softening });

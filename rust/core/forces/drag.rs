@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::{DragWidth, Info, Mass};
 use crate::error::{Error, Result};
 use crate::math::{Pose, Real, Twist, Vec2, Wrench, exp, exp_m1, ln_1p, vec2};
+use crate::shapes::Facet;
 
 /// The air that fills a world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -58,14 +59,38 @@ pub fn resists(info: &Info, air: Air) -> bool {
     has_drag(info, air) || info.def.linear_damping > 0.0 || info.def.angular_damping > 0.0
 }
 
-/// k = ½ρCA in F = −k|u|u for a body that moves through the air with `relative`.
-fn drag_factor(info: &Info, air: Air, angle: Real, relative: Vec2) -> Real {
+/// The facet of its silhouette that a body shows to the air; none where its width has no kinks of
+/// that kind.
+pub fn facet(info: &Info, air: Air, (pose, twist): (&Pose, &Twist)) -> Option<Facet> {
+    let kinks = has_drag(info, air) && info.def.drag_width == DragWidth::Silhouette;
+    kinks.then(|| info.silhouette.facet(pose.rot().apply_inverse(twist.linear - air.wind)))
+}
+
+/// Whether a facet still gives the width that the body shows to the air.
+pub fn shows(info: &Info, air: Air, (pose, twist): (&Pose, &Twist), facet: &Facet) -> bool {
+    // Next to a kink both facets give the same width; rounding must not send steps back and forth.
+    const SAME: Real = 1e-10;
+    let direction = pose.rot().apply_inverse(twist.linear - air.wind);
+    let width = info.silhouette.width_across(direction);
+    (width - facet.width_across(direction)).abs() <= SAME * width
+}
+
+/// k = ½ρCA in F = −k|u|u for a body that moves through the air with `relative`; A that of the given
+/// facet of the silhouette, if there is one.
+fn drag_factor(
+    info: &Info,
+    air: Air,
+    (angle, relative): (Real, Vec2),
+    facet: Option<&Facet>,
+) -> Real {
     if !has_drag(info, air) || relative == Vec2::zeros() {
         return 0.0;
     }
     let rot = Pose::new(Vec2::zeros(), angle).rot();
+    let direction = rot.apply_inverse(relative);
     let width = match info.def.drag_width {
-        DragWidth::Silhouette => info.silhouette.width_across(rot.apply_inverse(relative)),
+        DragWidth::Silhouette => facet
+            .map_or_else(|| info.silhouette.width_across(direction), |f| f.width_across(direction)),
         DragWidth::BoundingBox => info.silhouette.bounding_box_width_across(relative, rot),
         DragWidth::Fixed(width) => width,
     };
@@ -78,12 +103,13 @@ pub fn resistance(
     info: &Info,
     air: Air,
     (pose, twist): (&Pose, &Twist),
+    facet: Option<&Facet>,
 ) -> Option<Wrench> {
     if !resists(info, air) {
         return None;
     }
     let relative = twist.linear - air.wind;
-    let k = drag_factor(info, air, pose.angle, relative);
+    let k = drag_factor(info, air, (pose.angle, relative), facet);
     let factor = k * relative.norm() + info.def.linear_damping * mass.mass;
     Some(Wrench::new(-factor * relative, -info.def.angular_damping * mass.inertia * twist.angular))
 }
@@ -101,7 +127,7 @@ pub fn drift(
     twist.angular *= if spin_rate == 0.0 { 1.0 } else { exp(-spin_rate * h) };
 
     let relative = twist.linear - air.wind;
-    let k = drag_factor(info, air, middle, relative);
+    let k = drag_factor(info, air, (middle, relative), None);
     let free = vec2(
         if mass.inverse.x > 0.0 { relative.x } else { 0.0 },
         if mass.inverse.y > 0.0 { relative.y } else { 0.0 },

@@ -17,6 +17,7 @@ use crate::arena::HandleMap;
 use crate::body::{Body, Info, Mass};
 use crate::error::{Error, Result};
 use crate::math::{Pose, Real, Twist, Vec2, Wrench};
+use crate::shapes::Facet;
 
 /// Energy that crossed the border of a world since it was made (J).
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -33,6 +34,9 @@ pub struct ForceBuffers {
     total: Vec<Wrench>,
     work: Vec<Wrench>,
 }
+
+/// For each body the facet of its silhouette that the air is let see; none where its width has no kinks.
+pub type Facets = Vec<Option<Facet>>;
 
 /// The forces on a run of bodies, as the methods see them. All slices have the same length, but for
 /// `steady`, which is empty where there are no steady forces.
@@ -55,6 +59,11 @@ pub struct Forces<'a> {
     pub resistance: bool,
     /// Columns to work in.
     pub buffers: &'a mut ForceBuffers,
+    /// The facets of the bodies' silhouettes that the air is let see, whatever way they turn; empty:
+    /// the true silhouettes. With them forces are smooth, and a method can end its steps at the kinks.
+    pub facets: Facets,
+    /// An evaluation since this was cleared met a body that shows another facet.
+    pub kinked: bool,
     /// Force evaluations so far.
     pub evaluations: u64,
 }
@@ -110,9 +119,10 @@ impl Forces<'_> {
         self.accelerate_without_resistance(time, poses, twists, out)?;
         let mut dissipated = 0.0;
         for i in 0..if self.resistance { poses.len() } else { 0 } {
-            let state = (&poses[i], &twists[i]);
-            if let Some(resisting) =
-                drag::resistance(&self.masses[i], &self.infos[i], self.air, state)
+            let (info, state) = (&self.infos[i], (&poses[i], &twists[i]));
+            let facet = self.facets.get(i).and_then(Option::as_ref);
+            self.kinked |= facet.is_some_and(|facet| !drag::shows(info, self.air, state, facet));
+            if let Some(resisting) = drag::resistance(&self.masses[i], info, self.air, state, facet)
             {
                 let a = self.masses[i].acceleration(&resisting);
                 out[i].linear += a.linear;
@@ -121,6 +131,24 @@ impl Forces<'_> {
             }
         }
         Ok(Ledger { work: self.working_power(twists), dissipated })
+    }
+
+    /// The facets that the bodies show to the air in a state; empty where nothing resists.
+    #[must_use]
+    pub fn facets_of(&self, poses: &[Pose], twists: &[Twist]) -> Facets {
+        let shown = if self.resistance { self.infos } else { &[] };
+        let states = poses.iter().zip(twists);
+        shown.iter().zip(states).map(|(info, state)| drag::facet(info, self.air, state)).collect()
+    }
+
+    /// Whether the bodies show, in a state, the facets that are let seen.
+    #[must_use]
+    pub fn shows_facets(&self, poses: &[Pose], twists: &[Twist]) -> bool {
+        let states = poses.iter().zip(twists);
+        let mut bodies = self.facets.iter().zip(self.infos).zip(states);
+        bodies.all(|((facet, info), state)| {
+            facet.as_ref().is_none_or(|facet| drag::shows(info, self.air, state, facet))
+        })
     }
 
     /// Whether any force of the last evaluation does work that no potential accounts for.

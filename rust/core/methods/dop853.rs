@@ -4,16 +4,17 @@
 //! sections II.5 (method, error estimate eq. 10.17) and II.6 (dense output).
 
 use crate::error::{Error, Result};
-use crate::forces::Forces;
+use crate::forces::{Facets, Forces};
 use crate::math::{Pose, Real, Twist, powf};
-use crate::methods::dop853_table::{A, C, D, E3, E5};
+use crate::methods::dop853_dense::{Dense, first_kink};
+use crate::methods::dop853_table::{A, C, E3, E5};
 use crate::methods::first_order::{self, Columns};
 use crate::methods::{Facts, Method, Motion, Scratch, Span};
 
 /// Slopes of a step, its end included.
-const STAGES: usize = 13;
+pub const STAGES: usize = 13;
 /// Slopes with those that only dense output needs.
-const DENSE_STAGES: usize = 16;
+pub const DENSE_STAGES: usize = 16;
 
 pub struct Dop853;
 
@@ -90,12 +91,26 @@ pub struct Progress {
     pub estimate: Real,
 }
 
-/// A run of DOP853 to a tolerance.
+/// A kink at which a step ends: what the air sees from there on, and the step that would have been.
+struct Turn {
+    facets: Facets,
+    whole_step: Real,
+}
+
+/// A kink this part of a step away from its start is there already.
+const IN_PLACE: Real = 1e-9;
+/// Turns in place before a step is made all the same: a body at rest in the air turns with every rounding.
+const TURNS_IN_PLACE: u32 = 4;
+
+/// A run of DOP853 to a tolerance. Steps end where a body's silhouette has a kink: between kinks
+/// forces are smooth, and the error of a step is what its estimate says.
 pub struct Adaptive<'a> {
     control: &'a Control<'a>,
     scales: Vec<Scale>,
     span: Span,
     next_sample: usize,
+    may_grow: bool,
+    turns_in_place: u32,
     progress: Progress,
 }
 
@@ -123,6 +138,8 @@ impl<'a> Adaptive<'a> {
             scales: motion.poses.iter().enumerate().map(scale).collect(),
             span,
             next_sample: 0,
+            may_grow: true,
+            turns_in_place: 0,
             progress: Progress { smallest: Real::INFINITY, ..Progress::default() },
         }
     }
@@ -140,10 +157,11 @@ impl<'a> Adaptive<'a> {
     ) -> Result<Progress> {
         let y = &mut scratch.flat;
         y.load(motion, DENSE_STAGES);
-        y.slope_of_state(0, forces, self.span.start)?;
+        let start = Turn { facets: forces.facets_of(motion.poses, motion.twists), whole_step: 0.0 };
+        self.turn(y, forces, self.span.start, start)?;
         let mut passed = 0.0;
         let mut h = self.first_step(y);
-        let mut may_grow = true;
+        let mut turn: Option<Turn> = None;
         while passed < self.span.duration {
             let rest = self.span.duration - passed;
             // A last step that would leave a sliver takes it along.
@@ -151,24 +169,57 @@ impl<'a> Adaptive<'a> {
             h = if last { rest } else { h.min(rest) };
             let time = self.span.start + passed;
             self.refuse_tiny(h, passed)?;
+            forces.kinked = false;
             stages(y, forces, time, h)?;
             let error = self.error(y, h);
             if !error.is_finite() || error > 1.0 {
                 self.progress.rejected += 1;
-                may_grow = false;
+                (turn, self.may_grow) = (None, false);
                 h *= if error.is_finite() { growth(error).min(1.0) } else { 1.0 / 3.0 };
                 continue;
             }
             let end = if last { self.span.end } else { time + h };
             y.slope_of_stage(12, forces, end)?;
+            if forces.kinked
+                && turn.is_none()
+                && self.turns_in_place < TURNS_IN_PLACE
+                && let Some((part, facets)) = first_kink(y, forces, (time, h))?
+            {
+                let kink = Turn { facets, whole_step: h };
+                if part > IN_PLACE {
+                    turn = Some(kink);
+                    h *= part;
+                } else {
+                    self.turns_in_place += 1;
+                    self.turn(y, forces, time, kink)?;
+                }
+                continue;
+            }
             self.sample(y, forces, (passed, h, last), sink)?;
             self.accept(y, h, error);
             passed = if last { self.span.duration } else { passed + h };
-            h *= if may_grow { growth(error) } else { growth(error).min(1.0) };
-            may_grow = true;
+            h = self.next_step(h, error);
+            if let Some(kink) = turn.take() {
+                h = kink.whole_step;
+                self.turn(y, forces, end, kink)?;
+            }
         }
         y.store(motion);
         Ok(self.progress)
+    }
+
+    /// The step after one of length h.
+    fn next_step(&mut self, h: Real, error: Real) -> Real {
+        // Not right after a rejection: the error that was too large is still near.
+        let most = if self.may_grow { Real::INFINITY } else { 1.0 };
+        self.may_grow = true;
+        h * growth(error).min(most)
+    }
+
+    /// Lets the air see the bodies' new facets, from the state on.
+    fn turn(&self, y: &mut Columns, forces: &mut Forces<'_>, time: Real, turn: Turn) -> Result<()> {
+        forces.facets = turn.facets;
+        y.slope_of_state(0, forces, time)
     }
 
     /// A step over which velocities change little: tol^(1/8)·min |v|/|a|.
@@ -258,6 +309,7 @@ impl<'a> Adaptive<'a> {
     fn accept(&mut self, y: &mut Columns, h: Real, error: Real) {
         std::mem::swap(&mut y.state, &mut y.stage);
         y.slopes.swap(0, 12);
+        self.turns_in_place = 0;
         self.progress.steps += 1;
         self.progress.smallest = self.progress.smallest.min(h);
         self.progress.estimate += error * self.control.tolerance;
@@ -293,47 +345,5 @@ impl Scale {
         ];
         let relative = |(e, scale): (Real, Real)| if e == 0.0 { 0.0 } else { e / scale };
         parts.into_iter().map(relative).fold(0.0, Real::max)
-    }
-}
-
-/// The interpolant of order 7 over one step.
-struct Dense {
-    start: Vec<Real>,
-    coefficients: [Vec<Real>; 7],
-}
-
-impl Dense {
-    /// Needs slopes 0 to 12, the state and, in `y.stage`, the end of the step, which stays there.
-    fn new(y: &mut Columns, forces: &mut Forces<'_>, time: Real, h: Real) -> Result<Self> {
-        let end = y.stage.clone();
-        for j in STAGES..DENSE_STAGES {
-            y.combine(h, A[j]);
-            y.slope_of_stage(j, forces, time + C[j] * h)?;
-        }
-        y.stage.copy_from_slice(&end);
-        let (start, first, last) = (&y.state, &y.slopes[0], &y.slopes[12]);
-        let column = |f: &dyn Fn(usize) -> Real| (0..start.len()).map(f).collect::<Vec<_>>();
-        let high = |row: &[Real; DENSE_STAGES], i: usize| -> Real {
-            h * row.iter().zip(&y.slopes).map(|(d, slope)| d * slope[i]).sum::<Real>()
-        };
-        let coefficients = [
-            column(&|i| end[i] - start[i]),
-            column(&|i| h * first[i] - (end[i] - start[i])),
-            column(&|i| 2.0 * (end[i] - start[i]) - h * (last[i] + first[i])),
-            column(&|i| high(&D[0], i)),
-            column(&|i| high(&D[1], i)),
-            column(&|i| high(&D[2], i)),
-            column(&|i| high(&D[3], i)),
-        ];
-        Ok(Self { start: start.clone(), coefficients })
-    }
-
-    /// The state at a fraction of the step: y₀ + x(F₁ + (1 − x)(F₂ + x(F₃ + (1 − x)(…)))).
-    fn at(&self, x: Real) -> Vec<Real> {
-        let value = |i: usize| {
-            let nested = self.coefficients.iter().enumerate().rev();
-            nested.fold(0.0, |sum, (j, f)| (sum + f[i]) * if j % 2 == 0 { x } else { 1.0 - x })
-        };
-        (0..self.start.len()).map(|i| self.start[i] + value(i)).collect()
     }
 }

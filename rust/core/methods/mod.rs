@@ -3,6 +3,7 @@
 
 pub mod closed_form;
 mod dop853;
+mod dop853_dense;
 mod dop853_table;
 mod explicit_euler;
 mod first_order;

@@ -78,6 +78,20 @@ impl WireArc {
         Interval { min: span.min * self.radius, max: span.max * self.radius }
     }
 
+    /// The points that bound the extent along −direction and direction, and how far it goes beyond
+    /// them, for an arc about `center`.
+    pub fn bounds(&self, center: Vec2, direction: Vec2) -> ((Vec2, Real), (Vec2, Real)) {
+        let end = |sign: Real| {
+            if self.includes(direction * sign) {
+                return (center, sign * self.radius);
+            }
+            let along = |p: Vec2| sign * p.dot(&direction);
+            let farther = if along(self.from) > along(self.to) { self.from } else { self.to };
+            (center + farther * self.radius, 0.0)
+        };
+        (end(-1.0), end(1.0))
+    }
+
     /// Largest distance of a point of the arc from `point`.
     pub fn extent_from(&self, point: Vec2) -> Real {
         let away = self.center - point;

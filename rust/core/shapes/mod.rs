@@ -31,7 +31,7 @@ pub use bounds::{Aabb, Interval};
 pub use def::ShapeDef;
 pub use geometry::Ring;
 pub use mass::MassProperties;
-pub use silhouette::Silhouette;
+pub use silhouette::{Facet, Silhouette};
 
 use crate::error::{Error, Result};
 use crate::math::{Pose, Real, Vec2, vec2};

@@ -25,6 +25,17 @@ struct Part {
     arc: Option<WireArc>,
 }
 
+/// Between two kinks, the width of a silhouette across a unit vector n is c·n + r: the points that
+/// bound it stay the same. Kinks are where others take over.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Facet {
+    arm: Vec2,
+    round: Real,
+}
+
+/// A point that bounds an extent, and how far the extent goes beyond it.
+type Bound = (Vec2, Real);
+
 /// Up to this many parts, no memory is asked for.
 const FEW: usize = 16;
 
@@ -69,6 +80,37 @@ impl Silhouette {
         measure_of_union(extents)
     }
 
+    /// What bounds the width across a direction; it gives the same width until another point takes over.
+    #[must_use]
+    pub fn facet(&self, direction: Vec2) -> Facet {
+        let mut facet = Facet { arm: Vec2::zeros(), round: 0.0 };
+        let Some(across) = perp(direction).try_normalize(0.0) else { return facet };
+        let reach = |(point, round): Bound| point.dot(&across) + round;
+        let mut parts: Vec<_> = self.parts.iter().map(|part| self.bounds(part, across)).collect();
+        parts.sort_unstable_by(|a, b| reach(a.0).total_cmp(&reach(b.0)));
+        let mut parts = parts.into_iter().peekable();
+        while let Some((first, mut last)) = parts.next() {
+            while let Some((_, end)) = parts.next_if(|next| reach(next.0) <= reach(last)) {
+                last = if reach(end) > reach(last) { end } else { last };
+            }
+            facet.arm += last.0 - first.0;
+            facet.round += last.1 - first.1;
+        }
+        facet
+    }
+
+    /// The bounds of a part along −across and along across.
+    fn bounds(&self, part: &Part, across: Vec2) -> (Bound, Bound) {
+        let points = &self.points[part.from..part.to];
+        if let Some(arc) = &part.arc {
+            return arc.bounds(points[0], across);
+        }
+        let height = |a: &&Vec2, b: &&Vec2| a.dot(&across).total_cmp(&b.dot(&across));
+        let (low, high) = (points.iter().min_by(height), points.iter().max_by(height));
+        let bound = |point: Option<&Vec2>, radius| (point.copied().unwrap_or_default(), radius);
+        (bound(low, -part.radius), bound(high, part.radius))
+    }
+
     /// Extent, across the motion, of the box along the world's axes that holds the turned shapes
     /// (m): with its width w and height h, w |sin| + h |cos| of the motion's angle. The simple
     /// estimate that many games make, never below [`Silhouette::width_across`]; for comparison with
@@ -90,6 +132,15 @@ impl Silhouette {
             Some(arc) => arc.span(across).moved(points[0].dot(&across)),
             None => Interval::of(points, across).grown(part.radius),
         }
+    }
+}
+
+impl Facet {
+    /// Width across a direction (in the frame of the body), as long as this facet bounds it.
+    #[must_use]
+    pub fn width_across(&self, direction: Vec2) -> Real {
+        let Some(across) = perp(direction).try_normalize(0.0) else { return 0.0 };
+        self.arm.dot(&across) + self.round
     }
 }
 

@@ -214,6 +214,8 @@ impl World {
             fields,
             resistance,
             buffers: &mut scratch.forces,
+            facets: Vec::new(),
+            kinked: false,
             evaluations: 0,
         };
         let motion = Motion { poses: &mut poses[run.clone()], twists: &mut twists[run], ledger };
