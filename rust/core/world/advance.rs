@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Twist};
-use crate::methods::{Adaptive, Control, Progress, Sink, Span};
+use crate::methods::{Adaptive, Control, Progress, Sink, Span, Watch};
 use crate::world::{StepReport, Trajectory, World};
 
 impl World {
@@ -30,6 +30,20 @@ impl World {
         tolerance: Real,
         times: &[Real],
     ) -> Result<Trajectory> {
+        self.advance_watched(duration, tolerance, times, &mut || Ok(()))
+    }
+
+    /// The same, asking `watch` at each step of the method whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`World::advance`], and [`Error::Interrupted`] with what `watch` said.
+    pub fn advance_watched(
+        &mut self,
+        duration: Real,
+        tolerance: Real,
+        times: &[Real],
+        watch: &mut Watch<'_>,
+    ) -> Result<Trajectory> {
         check::positive("duration", duration)?;
         if !(1e-15..=0.1).contains(&tolerance) {
             return Err(Error::invalid("tolerance", tolerance, "1e-15 to 0.1"));
@@ -50,7 +64,7 @@ impl World {
             let start = world.time();
             world.report.estimate = Some(0.0);
             world.each_span(duration, |world, span| {
-                world.advance_to_tolerance(span, tolerance, (start, &mut trajectory))
+                world.advance_to_tolerance(span, tolerance, (start, &mut trajectory), watch)
             })?;
             world.finish(duration)?;
             trajectory.in_frames(&world.state.bodies);
@@ -64,6 +78,7 @@ impl World {
         span: Span,
         tolerance: Real,
         (start, trajectory): (Real, &mut Trajectory),
+        watch: &mut Watch<'_>,
     ) -> Result<()> {
         let passed = span.start - start;
         let samples = trajectory.within(passed, passed + span.duration);
@@ -84,7 +99,7 @@ impl World {
                 (run, plan.resistance),
                 span,
                 (tolerance, &times),
-                &mut sink,
+                (&mut sink, &mut *watch),
             )?;
             worst = worst.max(progress.estimate);
         }
@@ -99,13 +114,13 @@ impl World {
         (run, resistance): (Range<usize>, bool),
         span: Span,
         (tolerance, samples): (Real, &[Real]),
-        sink: &mut Sink<'_>,
+        (sink, watch): (&mut Sink<'_>, &mut Watch<'_>),
     ) -> Result<Progress> {
         let (mut forces, mut motion, scratch) = self.split(run, resistance);
         let infos = forces.infos;
         let control = Control { tolerance, sizes: &|i| infos[i].size, samples };
         let adaptive = Adaptive::new(&control, &motion, span);
-        let progress = adaptive.run(&mut forces, &mut motion, scratch, sink)?;
+        let progress = adaptive.run(&mut forces, &mut motion, scratch, (sink, watch))?;
         let evaluations = forces.evaluations;
         self.report.evaluations += evaluations;
         self.report.steps += progress.steps;
@@ -133,6 +148,20 @@ impl World {
     /// # Errors
     /// Those of [`World::steps`]; the world is then as it was before the call.
     pub fn record(&mut self, dt: Real, count: u32, every: u32) -> Result<Trajectory> {
+        self.record_watched(dt, count, every, &mut || Ok(()))
+    }
+
+    /// The same, asking `watch` after each step whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`World::record`], and [`Error::Interrupted`] with what `watch` said.
+    pub fn record_watched(
+        &mut self,
+        dt: Real,
+        count: u32,
+        every: u32,
+        watch: &mut Watch<'_>,
+    ) -> Result<Trajectory> {
         check::positive("dt", dt)?;
         if every == 0 {
             return Err(Error::invalid("every", every, "1 or more"));
@@ -142,13 +171,13 @@ impl World {
             let mut trajectory = Trajectory::new(vec![0.0; samples as usize], &world.state.bodies);
             for k in 0..samples {
                 if k > 0 {
-                    (0..every).try_for_each(|_| world.tick(dt))?;
+                    world.ticks(dt, every, watch)?;
                 }
                 let bodies = &world.state.bodies;
                 trajectory.times[k as usize] = world.state.clock.now;
                 trajectory.write(k as usize, 0, &bodies.poses, &bodies.twists);
             }
-            (0..count % every).try_for_each(|_| world.tick(dt))?;
+            world.ticks(dt, count % every, watch)?;
             trajectory.in_frames(&world.state.bodies);
             Ok(trajectory)
         })
