@@ -7,10 +7,12 @@ mod worlds;
 
 use std::f64::consts::TAU;
 
-use culbuto::forces::{Central, Oscillating};
+use culbuto::forces::{Air, Central, Oscillating};
 use culbuto::math::{Real, Vec2, vec2};
 use culbuto::methods::REGISTRY;
+use culbuto::shapes::Shape;
 use culbuto::{BodyDef, World};
+use proptest::prelude::*;
 use worlds::{EPS, Lorentz, Righting, assert_below, order, reference, world_with};
 
 /// Kepler's ellipse, μ = a = 1, e = 0.6, from its near end.
@@ -219,5 +221,34 @@ fn exact_for_a_constant_force_and_only_where_stated() {
         world.steps(0.125, 16).unwrap();
         let error = (world.bodies().poses[0].position - vec2(24.0, -1.62)).norm();
         assert_eq!(error < 1e-12, facts.exact_for_constant_force, "{}: {error:e}", facts.name);
+    }
+}
+
+proptest! {
+    /// Between the kinks of its silhouette a tumbling box moves smoothly, so errors follow the tolerance;
+    /// a step across a kink would be wrong by its slope's jump times h², whatever the tolerance.
+    #[test]
+    fn a_tumbling_box_keeps_its_tolerance(
+        angle in -3.0..3.0, spin in -9.0..9.0, speed in 2.0..20.0, length in 0.2..2.0, power in 6..12,
+    ) {
+        let end = |tolerance: Real| {
+            let mut world = World::new(vec2(0.0, -9.81)).unwrap();
+            world.set_air(Air { density: 1.2, wind: vec2(-1.0, 0.5) }).unwrap();
+            let box_ = BodyDef {
+                angle,
+                angular_velocity: spin,
+                velocity: vec2(speed, 3.0),
+                mass: Some(1.0),
+                drag_coefficient: 1.0,
+                ..BodyDef::new(Shape::rectangle(length, 0.1).unwrap())
+            };
+            world.add_body(box_).unwrap();
+            world.advance(1.5, tolerance).unwrap();
+            world.bodies().poses[0].position
+        };
+        let tolerance = libm::pow(10.0, -Real::from(power));
+        // Over a second and a half of some twenty steps; the way is the scale of the tolerance.
+        let allowed = 30.0 * tolerance * 30.0;
+        assert_below("box", (end(tolerance) - end(1e-14)).norm(), allowed);
     }
 }

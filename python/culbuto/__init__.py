@@ -28,6 +28,8 @@ A world holds bodies, fields of force and schedules, and moves them:
 >>> pull = world.add_field(lambda state: -0.5 * state.positions, name="pull")
 >>> world.step(1 / 60)
 
+`SceneFile`, `World.from_file` and `World.save` read and write worlds as JSON.
+
 A bad number or shape is a `ValueError`; what was removed from its world, a `StaleHandleError`; a
 motion that cannot go on, a `SimulationError`.
 """
@@ -49,6 +51,7 @@ from culbuto._native import (
     Polygon,
     RegularPolygon,
     RoundedPolygon,
+    SceneFile,
     SceneFileError,
     Schedule,
     Segment,
@@ -64,6 +67,7 @@ from culbuto._native import (
     World,
     __version__,
     methods,
+    scene_schema,
 )
 from culbuto.catalogue import Laws, Limits, Scene, Verdict, scene, scenes, verify, verify_laws
 from culbuto.study import Row, Study, study
@@ -89,6 +93,7 @@ __all__ = [
     "RoundedPolygon",
     "Row",
     "Scene",
+    "SceneFile",
     "SceneFileError",
     "Schedule",
     "Segment",
@@ -107,6 +112,7 @@ __all__ = [
     "__version__",
     "methods",
     "scene",
+    "scene_schema",
     "scenes",
     "study",
     "verify",

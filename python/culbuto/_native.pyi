@@ -7,6 +7,7 @@ world as it was.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from os import PathLike
 from typing import (
     Any,
     ClassVar,
@@ -41,6 +42,7 @@ __all__ = [
     "Polygon",
     "RegularPolygon",
     "RoundedPolygon",
+    "SceneFile",
     "SceneFileError",
     "Schedule",
     "Segment",
@@ -60,8 +62,8 @@ __all__ = [
     "measured_order",
     "methods",
     "open_scene",
-    "read_scene",
     "scene_error",
+    "scene_schema",
     "study",
     "thrown_ball",
     "verify",
@@ -74,6 +76,7 @@ _Float: TypeAlias = SupportsFloat | SupportsIndex
 _Operand: TypeAlias = Vec2 | tuple[_Float, _Float]
 _Vec2Arg: TypeAlias = Vec2 | Sequence[_Float] | NDArray[Any]
 _Array: TypeAlias = NDArray[np.float64]
+_Path: TypeAlias = str | PathLike[str]
 _Kind: TypeAlias = Literal["dynamic", "static", "kinematic"]
 _Width: TypeAlias = Literal["silhouette", "bounding_box"] | float
 _Column: TypeAlias = Literal[
@@ -1158,6 +1161,19 @@ class World:
         """What the last step or run took."""
     def explain(self) -> str:
         """The stages a step of this world runs, which bodies each moves, and how."""
+    @staticmethod
+    def from_file(path: _Path) -> World:
+        """The world of a scene file.
+
+        Raises:
+            SceneFileError: For what is not allowed in it; the message says where.
+            OSError: For a file that cannot be read.
+        """
+    def save(self, path: _Path) -> None:
+        """Writes the world as it is to a scene file, over one that is there.
+
+        `SceneFile.from_world` says what a file cannot hold, and gives the scene a name.
+        """
     def snapshot(self) -> Snapshot:
         """Keeps the world as it is: `restore` goes back to it."""
     def restore(self, snapshot: Snapshot) -> None:
@@ -1179,6 +1195,63 @@ class World:
     def draw(self, ax: Axes, **style: object) -> Axes:
         """Draws the world as it is on matplotlib axes, in metres; `style` goes to the patches."""
 
+@final
+class SceneFile:
+    """A world as a file holds it, and how it is meant to be run. There is none that makes no world.
+
+    What cannot be read or written is a `SceneFileError` that says where; a file that cannot be
+    opened, an `OSError`.
+    """
+
+    @staticmethod
+    def read(path: _Path) -> SceneFile:
+        """Reads a scene file."""
+    @staticmethod
+    def from_json(text: str) -> SceneFile:
+        """Reads a scene from JSON text."""
+    @staticmethod
+    def from_world(
+        world: World,
+        *,
+        name: str = "",
+        about: str = "",
+        dt: float = ...,
+        duration: float = 10.0,
+    ) -> SceneFile:
+        """The scene that begins where a world is; the world made from it goes on to the same bits.
+
+        Step `dt` and `duration` (s) are for whoever runs it. The world's energy books (work,
+        dissipation) are not in it.
+
+        Raises:
+            SceneFileError: For what a file cannot hold: a field that is code of your own, one on a
+                body that was removed, a force that waits for the next step.
+        """
+    @property
+    def name(self) -> str:
+        """Name of the scene; may be empty."""
+    @property
+    def about(self) -> str:
+        """What is to be seen; may be empty."""
+    @property
+    def dt(self) -> float:
+        """Length of a step (s) for whoever runs it."""
+    @property
+    def duration(self) -> float:
+        """How long it is meant to be run (s)."""
+    def world(self) -> World:
+        """A new world of the scene, at its beginning."""
+    def to_json(self) -> str:
+        """The scene as JSON text: always the same for the same scene, numbers to their last bit."""
+    def write(self, path: _Path) -> None:
+        """Writes a scene file, over one that is there."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[Callable[[str], SceneFile], tuple[str]]: ...
+
+def scene_schema() -> dict[str, Any]:
+    """The JSON schema of scene files."""
+
 def methods() -> list[Facts]:
     """Facts of every method, the default first."""
 
@@ -1189,9 +1262,6 @@ def catalogue() -> str:
 
 def open_scene(name: str) -> World:
     """The world of a scene of the catalogue."""
-
-def read_scene(path: str) -> tuple[World, str]:
-    """The world of a scene file, and its name, about, dt and duration."""
 
 def verify(name: str) -> str:
     """A scene against its answer."""

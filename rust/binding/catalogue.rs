@@ -5,7 +5,7 @@
 
 use culbuto::methods;
 use culbuto::report::{self, Law, Limits, Order, Study};
-use culbuto::scenes::{Answer, CATALOGUE, Motion, Scene, SceneFile, scene};
+use culbuto::scenes::{Answer, CATALOGUE, Motion, Scene, scene};
 use culbuto::world::Trajectory;
 use culbuto::{error::Result, math};
 use numpy::{
@@ -152,21 +152,6 @@ pub fn scene_error(
 pub fn open_scene<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, World>> {
     let motion = motion_of(name)?;
     World::assembled(py, (motion.build)().map_err(to_py)?, &[])
-}
-
-/// The world of a scene file, and what the file says of itself: name, about, dt and duration of its run.
-#[pyfunction]
-pub fn read_scene<'py>(py: Python<'py>, path: &str) -> PyResult<(Bound<'py, World>, String)> {
-    let (file, core) = py
-        .detach(|| {
-            let file = SceneFile::read(path)?;
-            let core = file.world()?;
-            Ok((file, core))
-        })
-        .map_err(to_py)?;
-    let (dt, duration) = (file.run.dt, file.run.duration);
-    let said = json!({ "name": file.name, "about": file.about, "dt": dt, "duration": duration });
-    Ok((World::assembled(py, core, &[])?, said.to_string()))
 }
 
 /// The conservation laws on a run of a copy of a world. Limits: energy, momentum, angular momentum,

@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 mod add_body;
 mod arrays;
 mod body;
+mod body_def;
 mod catalogue;
 mod convert;
 mod drawing;
@@ -17,6 +18,7 @@ mod law;
 mod observe;
 mod parts;
 mod record;
+mod scene_file;
 mod schedule;
 mod shape;
 mod shapes;
@@ -35,8 +37,8 @@ mod culbuto_native {
     use crate::body::Body;
     #[pymodule_export]
     use crate::catalogue::{
-        catalogue, exact_motion, measured_order, open_scene, read_scene, scene_error, study,
-        thrown_ball, verify, verify_laws,
+        catalogue, exact_motion, measured_order, open_scene, scene_error, study, thrown_ball,
+        verify, verify_laws,
     };
     #[pymodule_export]
     use crate::error::{SceneFileError, SimulationError, StaleHandleError};
@@ -46,6 +48,8 @@ mod culbuto_native {
     use crate::law::State;
     #[pymodule_export]
     use crate::observe::{Energy, Facts, methods};
+    #[pymodule_export]
+    use crate::scene_file::{SceneFile, scene_schema};
     #[pymodule_export]
     use crate::schedule::Schedule;
     #[pymodule_export]

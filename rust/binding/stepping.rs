@@ -201,7 +201,7 @@ impl World {
             None => Vec::new(),
         };
         let (mut report, trajectory) = self.work(py, |core| {
-            let trajectory = core.advance_sampled(duration, tolerance, &wanted)?;
+            let trajectory = core.advance_watched(duration, tolerance, &wanted, &mut signals())?;
             Ok((StepReport::from(core.report()), trajectory))
         })?;
         if times.is_some() {
@@ -215,7 +215,8 @@ impl World {
     #[pyo3(signature = (dt, steps, every=1))]
     fn record(&self, py: Python<'_>, dt: Real, steps: i64, every: i64) -> PyResult<Trajectory> {
         let (steps, every) = (count("steps", steps)?, count("every", every)?);
-        let trajectory = self.work(py, |core| core.record(dt, steps, every))?;
+        let trajectory =
+            self.work(py, |core| core.record_watched(dt, steps, every, &mut signals()))?;
         Trajectory::from_core(py, trajectory)
     }
 

@@ -6,7 +6,7 @@ use culbuto::math::{Real, Rot, Vec2, vec2};
 use culbuto::shapes::{Shape, ShapeDef, Silhouette};
 use proptest::prelude::*;
 
-use crate::common::{assert_close, polygons};
+use crate::common::{assert_close, outline_and_holes, polygons};
 
 fn toward(angle: Real) -> Vec2 {
     Rot::new(angle).apply(vec2(1.0, 0.0))
@@ -77,6 +77,30 @@ proptest! {
         let rot = Rot::new(turn);
         let bounding = shadow.bounding_box_width_across(toward(phi), rot);
         prop_assert!(bounding >= shadow.width_across(rot.apply_inverse(toward(phi))) * (1.0 - 1e-14));
+    }
+}
+
+proptest! {
+    #[test]
+    fn a_facet_bounds_the_width_where_it_is_shown_and_no_silhouette_is_narrower(
+        grid in polygons(), phi in -7.0..7.0, turn in -0.3..0.3, gap in 0.0..9.0,
+    ) {
+        let (vertices, _) = outline_and_holes(&grid, [0, 0]);
+        let polygon = Shape::polygon(&vertices).unwrap();
+        let arc = Shape::arc(vec2(gap, -gap), 2.0, phi, 2.0).unwrap();
+        let capsule = Shape::capsule(vec2(-gap, gap), vec2(-gap, 0.0), 0.5).unwrap();
+        let size = polygon.extent_from(Vec2::zeros()) + 20.0;
+        for parts in [&[&polygon][..], &[&arc], &[&capsule], &[&polygon, &arc, &capsule]] {
+            let shadow = Silhouette::new(parts);
+            let facet = shadow.facet(toward(phi));
+            let there = shadow.width_across(toward(phi));
+            prop_assert!((facet.width_across(toward(phi)) - there).abs() <= 1e-14 * size);
+            // The points that bound one convex body bound it from within everywhere else.
+            if parts.len() == 1 && parts[0] != &arc {
+                let beyond = toward(phi + turn);
+                prop_assert!(facet.width_across(beyond) <= shadow.width_across(beyond) + 1e-14 * size);
+            }
+        }
     }
 }
 

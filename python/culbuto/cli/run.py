@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ import click
 from rich.text import Text
 
 from culbuto import _native
+from culbuto._native import SceneFile
 from culbuto.cli.output import console, number, progress, table
 from culbuto.cli.source import Source, open_source
 from culbuto.drawing import picture
@@ -29,18 +31,23 @@ if TYPE_CHECKING:
 @click.option("--output", type=click.Path(path_type=Path, file_okay=False), help="Write there.")
 @click.option("--format", "form", type=click.Choice(["npz", "csv"]), default="npz")
 @click.option("--picture", "draw", is_flag=True, help="Write a picture (SVG), too.")
+@click.option("--save", type=click.Path(path_type=Path, dir_okay=False), help="Write a scene file.")
 def run(scene: str, **options: Any) -> None:  # noqa: ANN401 — as click hands them
     """Run a scene of the catalogue, or a scene file, and say how well it went.
 
-    The motion is written if --output is given, the picture if --picture is.
+    The motion is written if --output is given, the picture if --picture is, and the scene as it
+    begins, with the given step, duration and method, if --save is.
     """
     source = open_source(scene)
     _apply(source.world, options)
-    duration = source.duration if options["duration"] is None else options["duration"]
-    _above_zero("duration", duration)
+    source = _timed(source, options)
+    duration = source.duration
     out = console()
     out.print(f"[bold]{source.name}[/] {source.title}".rstrip())
     out.print(Text(_plan(source.world, options["tolerance"]), style="dim"), soft_wrap=True)
+    save: Path | None = options["save"]
+    if save is not None:
+        _scene_file(source).write(save)
     before = _state(source.world)
     recording = _record(source, options, duration)
     _print_report(recording)
@@ -51,6 +58,8 @@ def run(scene: str, **options: Any) -> None:  # noqa: ANN401 — as click hands 
             source.scene.name, motion.times, motion.positions, motion.angles
         )
         out.print(f"error against the exact answer: {number(error)} of {source.scene.length:g} m")
+    if save is not None:
+        out.print(Text(f"wrote {save}"), soft_wrap=True)
     for path in _write(source.name, recording, source.world, options):
         out.print(Text(f"wrote {path}"), soft_wrap=True)
 
@@ -72,6 +81,21 @@ def _apply(world: World, options: dict[str, Any]) -> None:
         world.substeps = options["substeps"]
 
 
+def _timed(source: Source, options: dict[str, Any]) -> Source:
+    """The source with the step and the duration that were asked for."""
+    given = {name: options[name] for name in ("dt", "duration") if options[name] is not None}
+    source = replace(source, **given)
+    _above_zero("dt", source.dt)
+    _above_zero("duration", source.duration)
+    return source
+
+
+def _scene_file(source: Source) -> SceneFile:
+    return SceneFile.from_world(
+        source.world, name=source.name, about=source.title, dt=source.dt, duration=source.duration
+    )
+
+
 def _plan(world: World, tolerance: float | None) -> str:
     """What runs."""
     plan = world.explain().rstrip()
@@ -86,12 +110,10 @@ def _record(source: Source, options: dict[str, Any], duration: float) -> Recordi
     if options["tolerance"] is not None:
         with console(stderr=True).status("running"):
             return record_to_tolerance(source.world, duration, options["tolerance"])
-    dt = source.dt if options["dt"] is None else options["dt"]
-    _above_zero("dt", dt)
-    steps = max(1, round(duration / dt))
+    steps = max(1, round(duration / source.dt))
     with progress() as bar:
         task = bar.add_task("running", total=steps)
-        return record_steps(source.world, dt, steps, lambda n: bar.advance(task, n))
+        return record_steps(source.world, source.dt, steps, lambda n: bar.advance(task, n))
 
 
 def _print_report(recording: Recording) -> None:

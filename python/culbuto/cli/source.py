@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from culbuto import _native, catalogue
+from culbuto import catalogue
+from culbuto._native import SceneFile
 
 if TYPE_CHECKING:
     from culbuto._native import World
@@ -36,10 +36,9 @@ def is_file(argument: str) -> bool:
 def open_source(argument: str) -> Source:
     """The scene that an argument means. `ValueError` or `OSError` says what is wrong with it."""
     if is_file(argument):
-        world, said = _native.read_scene(argument)
-        about = json.loads(said)
-        name = about["name"] or Path(argument).stem
-        return Source(name, about["about"], world, about["dt"], about["duration"], None)
+        file = SceneFile.read(argument)
+        name = file.name or Path(argument).stem
+        return Source(name, file.about, file.world(), file.dt, file.duration, None)
     scene = catalogue.find(argument)
     if scene.duration is None or scene.dt is None:
         message = f"{scene.name} is a scene of numbers, with no motion to run; see culbuto verify"

@@ -4,7 +4,7 @@
 //! sections II.5 (method, error estimate eq. 10.17) and II.6 (dense output).
 
 use crate::error::{Error, Result};
-use crate::forces::{Facets, Forces};
+use crate::forces::{BoxError, Facets, Forces};
 use crate::math::{Pose, Real, Twist, powf};
 use crate::methods::dop853_dense::{Dense, first_kink};
 use crate::methods::dop853_table::{A, C, E3, E5};
@@ -66,6 +66,9 @@ fn stages(y: &mut Columns, forces: &mut Forces<'_>, time: Real, h: Real) -> Resu
 
 /// Takes samples of a run: the number of the sample, and the state of the run's bodies there.
 pub type Sink<'a> = dyn FnMut(usize, &[Pose], &[Twist]) + 'a;
+
+/// Is asked at every step whether to go on; an error stops the run.
+pub type Watch<'a> = dyn FnMut() -> std::result::Result<(), BoxError> + 'a;
 
 /// What a run to a tolerance is asked for.
 pub struct Control<'a> {
@@ -147,13 +150,14 @@ impl<'a> Adaptive<'a> {
     /// Runs to the end of the span; `sink` is called with the number of each sample and the state there.
     ///
     /// # Errors
-    /// Those of the user's fields; [`Error::Tolerance`] where no step is small enough.
+    /// Those of the user's fields; [`Error::Tolerance`] where no step is small enough;
+    /// [`Error::Interrupted`] with what `watch` said.
     pub fn run(
         mut self,
         forces: &mut Forces<'_>,
         motion: &mut Motion<'_>,
         scratch: &mut Scratch,
-        sink: &mut Sink<'_>,
+        (sink, watch): (&mut Sink<'_>, &mut Watch<'_>),
     ) -> Result<Progress> {
         let y = &mut scratch.flat;
         y.load(motion, DENSE_STAGES);
@@ -163,6 +167,7 @@ impl<'a> Adaptive<'a> {
         let mut h = self.first_step(y);
         let mut turn: Option<Turn> = None;
         while passed < self.span.duration {
+            watch().map_err(|source| Error::Interrupted { source })?;
             let rest = self.span.duration - passed;
             // A last step that would leave a sliver takes it along.
             let last = h >= rest * (1.0 - 1e-10);

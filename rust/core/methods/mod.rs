@@ -13,7 +13,7 @@ mod semi_implicit_euler;
 mod trapezoid;
 mod yoshida;
 
-pub use dop853::{Adaptive, Control, Progress, Sink};
+pub use dop853::{Adaptive, Control, Progress, Sink, Watch};
 
 use crate::error::{Error, Result};
 use crate::forces::{Forces, Ledger};

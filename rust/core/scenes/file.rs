@@ -230,7 +230,8 @@ impl SceneFile {
     /// [`Error::Io`] if the file cannot be read, else those of [`SceneFile::from_json`].
     pub fn read(path: impl AsRef<Path>) -> Result<Self> {
         let path = path.as_ref();
-        Self::from_json(&std::fs::read_to_string(path).map_err(|source| failed(path, source))?)
+        let bytes = std::fs::read(path).map_err(|source| failed(path, source))?;
+        Self::from_json(std::str::from_utf8(&bytes).map_err(|error| wrong(".", error))?)
     }
 
     /// The scene as JSON text: always the same for the same scene, every number to its last bit, what

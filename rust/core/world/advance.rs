@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Twist};
-use crate::methods::{Adaptive, Control, Progress, Sink, Span};
+use crate::methods::{Adaptive, Control, Progress, Sink, Span, Watch};
 use crate::world::{StepReport, Trajectory, World};
 
 impl World {
@@ -15,9 +15,9 @@ impl World {
     /// the body's size or the way it went (positions), a radian (angles), its largest speeds so far
     /// (velocities); the report's estimate is the sum of those errors.
     ///
-    /// The estimate trusts that forces are smooth. The shadow of a turning polygon is not: where its
-    /// drag has a kink inside a step, that step's error can be 1e2 to 1e4 times the tolerance and go
-    /// unnoticed ([`DragWidth::Fixed`](crate::body::DragWidth) and round shapes are free of it).
+    /// Where a turning body's silhouette has a kink (another corner bounds it) a step ends, so that forces are
+    /// smooth within each. The estimate trusts that the user's own fields are, too, and
+    /// [`DragWidth::BoundingBox`](crate::body::DragWidth), whose kinks are not looked for.
     ///
     /// # Errors
     /// A number that is not allowed, a field that fails, a tolerance that cannot be reached. The world
@@ -33,6 +33,20 @@ impl World {
         duration: Real,
         tolerance: Real,
         times: &[Real],
+    ) -> Result<Trajectory> {
+        self.advance_watched(duration, tolerance, times, &mut || Ok(()))
+    }
+
+    /// The same, asking `watch` at each step of the method whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`World::advance`], and [`Error::Interrupted`] with what `watch` said.
+    pub fn advance_watched(
+        &mut self,
+        duration: Real,
+        tolerance: Real,
+        times: &[Real],
+        watch: &mut Watch<'_>,
     ) -> Result<Trajectory> {
         check::positive("duration", duration)?;
         if !(1e-15..=0.1).contains(&tolerance) {
@@ -54,7 +68,7 @@ impl World {
             let start = world.time();
             world.report.estimate = Some(0.0);
             world.each_span(duration, |world, span| {
-                world.advance_to_tolerance(span, tolerance, (start, &mut trajectory))
+                world.advance_to_tolerance(span, tolerance, (start, &mut trajectory), watch)
             })?;
             world.finish(duration)?;
             trajectory.in_frames(&world.state.bodies);
@@ -68,6 +82,7 @@ impl World {
         span: Span,
         tolerance: Real,
         (start, trajectory): (Real, &mut Trajectory),
+        watch: &mut Watch<'_>,
     ) -> Result<()> {
         let passed = span.start - start;
         let samples = trajectory.within(passed, passed + span.duration);
@@ -88,7 +103,7 @@ impl World {
                 (run, plan.resistance),
                 span,
                 (tolerance, &times),
-                &mut sink,
+                (&mut sink, &mut *watch),
             )?;
             worst = worst.max(progress.estimate);
         }
@@ -103,13 +118,13 @@ impl World {
         (run, resistance): (Range<usize>, bool),
         span: Span,
         (tolerance, samples): (Real, &[Real]),
-        sink: &mut Sink<'_>,
+        (sink, watch): (&mut Sink<'_>, &mut Watch<'_>),
     ) -> Result<Progress> {
         let (mut forces, mut motion, scratch) = self.split(run, resistance);
         let infos = forces.infos;
         let control = Control { tolerance, sizes: &|i| infos[i].size, samples };
         let adaptive = Adaptive::new(&control, &motion, span);
-        let progress = adaptive.run(&mut forces, &mut motion, scratch, sink)?;
+        let progress = adaptive.run(&mut forces, &mut motion, scratch, (sink, watch))?;
         let evaluations = forces.evaluations;
         self.report.evaluations += evaluations;
         self.report.steps += progress.steps;
@@ -137,6 +152,20 @@ impl World {
     /// # Errors
     /// Those of [`World::steps`]; the world is then as it was before the call.
     pub fn record(&mut self, dt: Real, count: u32, every: u32) -> Result<Trajectory> {
+        self.record_watched(dt, count, every, &mut || Ok(()))
+    }
+
+    /// The same, asking `watch` after each step whether to go on.
+    ///
+    /// # Errors
+    /// Those of [`World::record`], and [`Error::Interrupted`] with what `watch` said.
+    pub fn record_watched(
+        &mut self,
+        dt: Real,
+        count: u32,
+        every: u32,
+        watch: &mut Watch<'_>,
+    ) -> Result<Trajectory> {
         check::positive("dt", dt)?;
         if every == 0 {
             return Err(Error::invalid("every", every, "1 or more"));
@@ -146,13 +175,13 @@ impl World {
             let mut trajectory = Trajectory::new(vec![0.0; samples as usize], &world.state.bodies);
             for k in 0..samples {
                 if k > 0 {
-                    (0..every).try_for_each(|_| world.tick(dt))?;
+                    world.ticks(dt, every, watch)?;
                 }
                 let bodies = &world.state.bodies;
                 trajectory.times[k as usize] = world.state.clock.now;
                 trajectory.write(k as usize, 0, &bodies.poses, &bodies.twists);
             }
-            (0..count % every).try_for_each(|_| world.tick(dt))?;
+            world.ticks(dt, count % every, watch)?;
             trajectory.in_frames(&world.state.bodies);
             Ok(trajectory)
         })

@@ -5,10 +5,10 @@ use std::time::Instant;
 
 use crate::body::Bodies;
 use crate::error::{Error, Result, check};
-use crate::forces::{BoxError, Forces, Ledger};
+use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
-use crate::methods::{Motion, Span};
+use crate::methods::{Motion, Span, Watch};
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -45,18 +45,15 @@ impl World {
     /// # Errors
     /// Those of [`World::step`], and [`Error::Interrupted`] with what `watch` said; the world is then as it
     /// was before the first of the steps.
-    pub fn steps_watched(
-        &mut self,
-        dt: Real,
-        count: u32,
-        watch: &mut dyn FnMut() -> std::result::Result<(), BoxError>,
-    ) -> Result<()> {
+    pub fn steps_watched(&mut self, dt: Real, count: u32, watch: &mut Watch<'_>) -> Result<()> {
         check::positive("dt", dt)?;
-        self.attempt(|world| {
-            (0..count).try_for_each(|_| {
-                world.tick(dt)?;
-                watch().map_err(|source| Error::Interrupted { source })
-            })
+        self.attempt(|world| world.ticks(dt, count, watch))
+    }
+
+    pub(super) fn ticks(&mut self, dt: Real, count: u32, watch: &mut Watch<'_>) -> Result<()> {
+        (0..count).try_for_each(|_| {
+            self.tick(dt)?;
+            watch().map_err(|source| Error::Interrupted { source })
         })
     }
 
