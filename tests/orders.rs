@@ -229,7 +229,7 @@ proptest! {
     /// a step across a kink would be wrong by its slope's jump times h², whatever the tolerance.
     #[test]
     fn a_tumbling_box_keeps_its_tolerance(
-        angle in -3.0..3.0, spin in -9.0..9.0, speed in 2.0..20.0, length in 0.2..2.0, power in 6..12,
+        angle in -3.0..3.0, spin in -9.0..9.0, speed in 2.0..20.0, length in 0.2..2.0, power in 8..13,
     ) {
         let end = |tolerance: Real| {
             let mut world = World::new(vec2(0.0, -9.81)).unwrap();
@@ -244,11 +244,13 @@ proptest! {
             };
             world.add_body(box_).unwrap();
             world.advance(1.5, tolerance).unwrap();
-            world.bodies().poses[0].position
+            (world.bodies().poses[0].position, world.bodies().twists[0].linear)
         };
         let tolerance = libm::pow(10.0, -Real::from(power));
-        // Over a second and a half of some twenty steps; the way is the scale of the tolerance.
-        let allowed = 30.0 * tolerance * 30.0;
-        assert_below("box", (end(tolerance) - end(1e-14)).norm(), allowed);
+        let (at, exact) = (end(tolerance), end(1e-14));
+        let error = (at.0 - exact.0).norm().max((at.1 - exact.1).norm());
+        // Some thirty steps, each within the tolerance of a way of metres; without an eye for kinks one run
+        // in five is beyond that, and the worst a hundred times.
+        assert_below("box", error, 30.0 * tolerance);
     }
 }
