@@ -139,6 +139,25 @@ pub fn method(name: &str) -> Result<&'static dyn Method> {
     })
 }
 
+/// Steps by a rule that asks for the accelerations once, at the start of each step: Euler's rules differ
+/// only in the order of kick and drift.
+fn each_step(
+    forces: &mut Forces<'_>,
+    motion: &mut Motion<'_>,
+    span: Span,
+    scratch: &mut Scratch,
+    rule: impl Fn(&mut Motion<'_>, &[Twist], Real),
+) -> Result<()> {
+    let accelerations = &mut scratch.accelerations;
+    accelerations.resize(motion.poses.len(), Twist::ZERO);
+    for k in 0..span.substeps {
+        let power = forces.accelerate(span.time(k), motion.poses, motion.twists, accelerations)?;
+        motion.ledger.book(power, span.h());
+        rule(motion, accelerations, span.h());
+    }
+    Ok(())
+}
+
 /// v += a·h for every body.
 fn kick(twists: &mut [Twist], accelerations: &[Twist], h: Real) {
     for (v, a) in twists.iter_mut().zip(accelerations) {

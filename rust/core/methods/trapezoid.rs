@@ -3,8 +3,7 @@
 
 use crate::error::Result;
 use crate::forces::Forces;
-use crate::math::Twist;
-use crate::methods::{Facts, Method, Motion, Scratch, Span, drift, kick};
+use crate::methods::{Facts, Method, Motion, Scratch, Span, drift, each_step, kick};
 
 pub struct Trapezoid;
 
@@ -32,16 +31,10 @@ impl Method for Trapezoid {
         span: Span,
         scratch: &mut Scratch,
     ) -> Result<()> {
-        let accelerations = &mut scratch.accelerations;
-        accelerations.resize(motion.poses.len(), Twist::ZERO);
-        for k in 0..span.substeps {
-            let power =
-                forces.accelerate(span.time(k), motion.poses, motion.twists, accelerations)?;
-            motion.ledger.book(power, span.h());
-            drift(motion.poses, motion.twists, span.h() / 2.0);
-            kick(motion.twists, accelerations, span.h());
-            drift(motion.poses, motion.twists, span.h() / 2.0);
-        }
-        Ok(())
+        each_step(forces, motion, span, scratch, |motion, a, h| {
+            drift(motion.poses, motion.twists, h / 2.0);
+            kick(motion.twists, a, h);
+            drift(motion.poses, motion.twists, h / 2.0);
+        })
     }
 }
