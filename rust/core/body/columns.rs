@@ -200,11 +200,12 @@ impl Bodies {
     /// Where the body's frame stands.
     #[must_use]
     pub fn origin(&self, i: usize) -> Pose {
-        let (pose, local) = (&self.poses[i], self.local_centers[i]);
-        if local == Vec2::zeros() {
-            return *pose;
-        }
-        Pose::new(pose.position - pose.rot().apply(local), pose.angle)
+        frame(&self.poses[i], self.local_centers[i])
+    }
+
+    /// Where the frames of all bodies stand.
+    pub fn origins(&self) -> impl Iterator<Item = Pose> {
+        self.poses.iter().zip(&self.local_centers).map(|(pose, local)| frame(pose, *local))
     }
 
     /// Puts the body's frame at a pose.
@@ -223,4 +224,12 @@ impl Bodies {
         let centers = self.infos.iter_mut().zip(&self.local_centers);
         centers.for_each(|(info, center)| info.rebuild(*center));
     }
+}
+
+/// The frame of a body whose centre of mass, at `local` in it, is at the position of `pose`.
+fn frame(pose: &Pose, local: Vec2) -> Pose {
+    if local == Vec2::zeros() {
+        return *pose;
+    }
+    Pose::new(pose.position - pose.rot().apply(local), pose.angle)
 }

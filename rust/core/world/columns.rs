@@ -4,15 +4,14 @@ use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Twist, Vec2, Wrench};
 use crate::world::World;
 
-fn vectors(out: &mut [Real], vector: impl Fn(usize) -> Vec2) {
-    for (i, pair) in out.chunks_exact_mut(2).enumerate() {
-        let v = vector(i);
-        (pair[0], pair[1]) = (v.x, v.y);
+fn vectors(out: &mut [Real], vectors: impl Iterator<Item = Vec2>) {
+    for (pair, v) in out.as_chunks_mut().0.iter_mut().zip(vectors) {
+        *pair = [v.x, v.y];
     }
 }
 
-fn numbers(out: &mut [Real], number: impl Fn(usize) -> Real) {
-    out.iter_mut().enumerate().for_each(|(i, x)| *x = number(i));
+fn numbers(out: &mut [Real], numbers: impl Iterator<Item = Real>) {
+    out.iter_mut().zip(numbers).for_each(|(x, number)| *x = number);
 }
 
 /// A quantity of every body, in body order.
@@ -73,12 +72,12 @@ impl World {
         self.check_length(column, out.len())?;
         let bodies = &self.state.bodies;
         match column {
-            Column::Positions => vectors(out, |i| bodies.origin(i).position),
-            Column::Velocities => vectors(out, |i| bodies.twists[i].linear),
-            Column::Forces => vectors(out, |i| bodies.forces[i].force),
-            Column::Angles => numbers(out, |i| bodies.poses[i].angle),
-            Column::AngularVelocities => numbers(out, |i| bodies.twists[i].angular),
-            Column::Torques => numbers(out, |i| bodies.forces[i].torque),
+            Column::Positions => vectors(out, bodies.origins().map(|pose| pose.position)),
+            Column::Velocities => vectors(out, bodies.twists.iter().map(|twist| twist.linear)),
+            Column::Forces => vectors(out, bodies.forces.iter().map(|wrench| wrench.force)),
+            Column::Angles => numbers(out, bodies.poses.iter().map(|pose| pose.angle)),
+            Column::AngularVelocities => numbers(out, bodies.twists.iter().map(|v| v.angular)),
+            Column::Torques => numbers(out, bodies.forces.iter().map(|wrench| wrench.torque)),
         }
         Ok(())
     }
