@@ -12,11 +12,11 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
-from matplotlib.ticker import LogLocator
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from culbuto import _native
 from culbuto.report.measure import THROW_METHODS, THROWN, TICKS
-from culbuto.report.style import INK, LINE, METHODS, MUTED, RC, Look
+from culbuto.report.style import INK, LINE, METHODS, MUTED, PAPER, RC, Look
 from culbuto.study import Path, Row, Study, thrown_ball
 
 if TYPE_CHECKING:
@@ -47,6 +47,7 @@ def _drawn(error: float) -> float:
 def _log_axes(ax: Axes) -> None:
     ax.set(xscale="log", yscale="log", ylim=(LEAST / 3, MOST))
     ax.yaxis.set_major_locator(LogLocator(numticks=20, base=1000.0))
+    ax.xaxis.set_minor_formatter(NullFormatter())  # they would run into one another
     ax.axhspan(LEAST / 3, ROUNDING, color=LINE.light, alpha=0.45, linewidth=0)
     ax.text(
         0.995, LEAST / 2, "rounding", transform=ax.get_yaxis_transform(), ha="right", va="bottom",
@@ -124,7 +125,8 @@ def _slopes(ax: Axes, low: float, high: float, orders: Sequence[int]) -> None:
         at_edge = reach <= low / 1.5
         ax.annotate(
             power, (reach, end), xytext=(3, 3) if at_edge else (2, 3), textcoords="offset points",
-            color=MUTED.light, fontsize=SMALL, ha="left", va="bottom",
+            color=MUTED.light, fontsize=SMALL, ha="left", va="bottom", zorder=5,
+            bbox={"boxstyle": "square,pad=0.1", "facecolor": PAPER.light, "edgecolor": "none"},
         )  # fmt: skip
 
 
