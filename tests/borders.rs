@@ -302,3 +302,40 @@ fn broken_snapshots_are_refused() {
     let own = vec![std::sync::Arc::new(Righting { strength: 1.0 }) as _];
     assert!(Snapshot::from_bytes(&bytes, own).is_err(), "a field too many");
 }
+
+/// Counts how often it is asked, and pushes without a potential.
+struct Counting(std::sync::Arc<std::sync::atomic::AtomicU64>);
+
+impl culbuto::forces::ForceField for Counting {
+    fn name(&self) -> &'static str {
+        "counting"
+    }
+
+    fn add_forces(
+        &self,
+        _: f64,
+        _: &culbuto::forces::BodyColumns<'_>,
+        out: &mut [Wrench],
+    ) -> Result<(), culbuto::forces::BoxError> {
+        self.0.fetch_add(1, std::sync::atomic::Ordering::Relaxed);
+        out.iter_mut().for_each(|wrench| wrench.force.x += 1.0);
+        Ok(())
+    }
+}
+
+#[test]
+fn a_field_is_asked_once_an_evaluation_whatever_else_acts() {
+    let asked = std::sync::Arc::default();
+    let mut world = World::default();
+    let force = vec2(2.0, 0.0);
+    world.add_body(BodyDef { force, ..BodyDef::point(1.0) }).unwrap();
+    world.add_field(Counting(std::sync::Arc::clone(&asked)));
+    world.add_field(Counting(std::sync::Arc::clone(&asked)));
+    world.step(0.5).unwrap();
+    let evaluations = world.report().evaluations;
+    assert!(evaluations > 0);
+    assert_eq!(asked.load(std::sync::atomic::Ordering::Relaxed), 2 * evaluations);
+    // 2 + 1 + 1 N on 1 kg for half a second, all of it booked as work.
+    assert!((world.bodies().twists[0].linear.x - 2.0).abs() < 1e-15);
+    assert!((world.energy().unwrap().work - 2.0).abs() < 1e-14);
+}

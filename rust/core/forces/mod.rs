@@ -33,6 +33,7 @@ pub struct Ledger {
 pub struct ForceBuffers {
     total: Vec<Wrench>,
     work: Vec<Wrench>,
+    own: Vec<Wrench>,
 }
 
 /// For each body the facet of its silhouette that the air is let see; none where its width has no kinks.
@@ -86,20 +87,21 @@ impl Forces<'_> {
         out: &mut [Twist],
     ) -> Result<()> {
         self.evaluations += 1;
-        let ForceBuffers { total, work } = &mut *self.buffers;
-        total.clear();
-        work.clear();
+        let buffers = &mut *self.buffers;
+        buffers.total.clear();
+        buffers.work.clear();
         if !self.steady.is_empty() {
-            total.extend_from_slice(self.steady);
-            work.extend_from_slice(self.steady);
+            buffers.total.extend_from_slice(self.steady);
+            buffers.work.extend_from_slice(self.steady);
         }
         if !self.fields.is_empty() {
-            total.resize(poses.len(), Wrench::ZERO);
+            buffers.total.resize(poses.len(), Wrench::ZERO);
             let bodies = BodyColumns { poses, twists, masses: self.masses, handles: self.handles };
             for field in self.fields {
-                add_field(field.as_ref(), time, &bodies, total, work)?;
+                add_field(field.as_ref(), time, &bodies, buffers)?;
             }
         }
+        let total = &buffers.total;
         for (i, (a, mass)) in out.iter_mut().zip(self.masses).enumerate() {
             let gravity = self.gravity.component_mul(&mass.gravity_scale);
             *a = total.get(i).map_or(Twist::ZERO, |wrench| mass.acceleration(wrench));
@@ -192,26 +194,27 @@ fn power(wrench: &Wrench, twist: &Twist, mass: &Mass) -> Real {
         + free(mass.inverse_inertia, wrench.torque * twist.angular)
 }
 
-/// Adds one field's forces to `total`, and to `work` if the field has no potential.
+/// Adds one field's forces to `total`, and to `work` if the field has no potential. The field is asked once.
 fn add_field(
     field: &dyn ForceField,
     time: Real,
     bodies: &BodyColumns<'_>,
-    total: &mut [Wrench],
-    work: &mut Vec<Wrench>,
+    buffers: &mut ForceBuffers,
 ) -> Result<()> {
+    let ForceBuffers { total, work, own } = buffers;
     let failed = |source| Error::Field { name: field.name().to_owned(), source };
     if field.facts().conservative {
         return field.add_forces(time, bodies, total).map_err(failed);
     }
+    own.clear();
+    own.resize(total.len(), Wrench::ZERO);
     work.resize(total.len(), Wrench::ZERO);
-    if work.iter().all(|w| *w == Wrench::ZERO) {
-        field.add_forces(time, bodies, work).map_err(failed)?;
-        total.iter_mut().zip(work).for_each(|(sum, w)| *sum += *w);
-        return Ok(());
+    field.add_forces(time, bodies, own).map_err(failed)?;
+    for ((sum, working), own) in total.iter_mut().zip(work).zip(own) {
+        *sum += *own;
+        *working += *own;
     }
-    field.add_forces(time, bodies, work).map_err(failed)?;
-    field.add_forces(time, bodies, total).map_err(failed)
+    Ok(())
 }
 
 /// Whether air or damping act on a body; the plan sorts bodies by it.
