@@ -273,7 +273,7 @@ pub fn checked(def: ShapeDef, density: Option<Real>) -> PyResult<PyClassInitiali
         return Err(PyValueError::new_err(message));
     }
     let shape = CoreShape::new(def).map_err(to_py)?;
-    Ok(PyClassInitializer::from(Shape { part: Part { shape, density } }))
+    Ok(PyClassInitializer::from(Shape { part: Part { density, ..Part::from(shape) } }))
 }
 
 /// The shapes of a body as an argument: none, one, or a sequence of them.

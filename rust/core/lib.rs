@@ -30,12 +30,13 @@
 //!
 //! # Map
 //!
-//! From the ground up: [`math`], [`error`], [`arena`], [`shapes`], [`body`], [`forces`], [`methods`],
+//! From the ground up: [`math`], [`error`], [`arena`], [`shapes`], [`body`], [`collision`], [`forces`], [`methods`],
 //! [`world`], [`observe`], [`scenes`], [`report`]. [`docs`] holds the guide, the architecture and the
 //! decisions.
 
 pub mod arena;
 pub mod body;
+pub mod collision;
 pub mod error;
 pub mod forces;
 pub mod math;

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::Mass;
+use crate::body::{Filter, Mass, Role, Surface};
 use crate::error::{Error, Result, check};
 use crate::math::{Real, Vec2, vec2};
 use crate::shapes::{MassProperties, Shape};
@@ -56,11 +56,20 @@ pub struct Part {
     /// Density (kg/m², or kg/m of a wire); none: the body's.
     #[serde(default)]
     pub density: Option<Real>,
+    /// Friction, restitution and the like; none: the body's.
+    #[serde(default)]
+    pub surface: Option<Surface>,
+    /// What it can touch; none: as the body's.
+    #[serde(default)]
+    pub filter: Option<Filter>,
+    /// Solid, a sensor, or a platform that is open from below.
+    #[serde(default)]
+    pub role: Role,
 }
 
 impl From<Shape> for Part {
     fn from(shape: Shape) -> Self {
-        Self { shape, density: None }
+        Self { shape, density: None, surface: None, filter: None, role: Role::Solid }
     }
 }
 
@@ -112,6 +121,10 @@ pub struct BodyDef {
     pub drag_coefficient: Real,
     /// A in ½ρCAv².
     pub drag_width: DragWidth,
+    /// Friction, restitution and the like of shapes that have none of their own.
+    pub surface: Surface,
+    /// What shapes that have no filter of their own can touch.
+    pub filter: Filter,
     /// A constant force through the centre of mass (N), until changed.
     #[schemars(with = "[Real; 2]")]
     pub force: Vec2,
@@ -139,6 +152,8 @@ impl Default for BodyDef {
             angular_damping: 0.0,
             drag_coefficient: 0.4,
             drag_width: DragWidth::Silhouette,
+            surface: Surface::default(),
+            filter: Filter::default(),
             force: vec2(0.0, 0.0),
             torque: 0.0,
         }
@@ -180,6 +195,14 @@ impl BodyDef {
         check::not_negative("drag_coefficient", self.drag_coefficient)?;
         if let DragWidth::Fixed(width) = self.drag_width {
             check::not_negative("drag_width", width)?;
+        }
+        self.surface.validated()?;
+        for part in &self.shapes {
+            part.surface.as_ref().map_or(Ok(()), Surface::validated)?;
+            if let Role::OneWay(side) = part.role {
+                check::finite_vec("one_way", side)?;
+                check::positive("length of one_way", side.norm())?;
+            }
         }
         check::finite_vec("force", self.force)?;
         check::finite("torque", self.torque)?;

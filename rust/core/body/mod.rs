@@ -5,9 +5,11 @@
 
 mod columns;
 mod def;
+mod surface;
 
 pub use columns::{Bodies, Info, Mass};
 pub use def::{BodyDef, BodyKind, DragWidth, Locks, Part};
+pub use surface::{Filter, Friction, Role, Surface};
 
 use crate::arena::{Handle, Named};
 

@@ -42,7 +42,7 @@ pub struct ScenePart {
 }
 
 impl From<Part> for ScenePart {
-    fn from(Part { shape, density }: Part) -> Self {
+    fn from(Part { shape, density, .. }: Part) -> Self {
         Self { shape, material: None, density }
     }
 }

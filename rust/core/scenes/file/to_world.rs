@@ -79,7 +79,7 @@ impl SceneFile {
             density
                 .map_or(Ok(0.0), |density| check::not_negative("density", density))
                 .map_err(at(&path))?;
-            Ok(Part { shape: part.shape.clone(), density })
+            Ok(Part { density, ..Part::from(part.shape.clone()) })
         };
         body.shapes.iter().enumerate().map(part).collect()
     }
