@@ -37,6 +37,7 @@
 pub mod arena;
 pub mod body;
 pub mod collision;
+pub mod constraints;
 pub mod error;
 pub mod forces;
 pub mod math;
@@ -45,6 +46,7 @@ pub mod observe;
 pub mod report;
 pub mod scenes;
 pub mod shapes;
+pub mod solvers;
 pub mod world;
 
 pub use body::{BodyDef, BodyHandle, BodyKind, Part};

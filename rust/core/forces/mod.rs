@@ -24,8 +24,18 @@ use crate::shapes::Facet;
 pub struct Ledger {
     /// Done on bodies by forces that have no potential.
     pub work: Real,
-    /// Taken by drag and damping (negative where the wind gives more than it takes).
+    /// Taken by drag, damping, friction and impacts (negative where the wind gives more than it takes).
     pub dissipated: Real,
+    /// Done where overlap was removed by moving bodies, against the forces on them.
+    pub correction_work: Real,
+}
+
+impl std::ops::AddAssign for Ledger {
+    fn add_assign(&mut self, other: Self) {
+        self.work += other.work;
+        self.dissipated += other.dissipated;
+        self.correction_work += other.correction_work;
+    }
 }
 
 /// Columns that a force evaluation fills; kept between steps so that a warm step allocates nothing.
@@ -132,7 +142,7 @@ impl Forces<'_> {
                 dissipated -= power(&resisting, &twists[i], &self.masses[i]);
             }
         }
-        Ok(Ledger { work: self.working_power(twists), dissipated })
+        Ok(Ledger { work: self.working_power(twists), dissipated, ..Ledger::default() })
     }
 
     /// The facets that the bodies show to the air in a state; empty where nothing resists.
