@@ -40,6 +40,7 @@ pub mod collision;
 pub mod constraints;
 pub mod error;
 pub mod forces;
+pub mod islands;
 pub mod math;
 pub mod methods;
 pub mod observe;

@@ -4,6 +4,7 @@
 //! frame of the body's centre of mass. Nothing here knows of mass, time or forces.
 
 mod collider;
+mod extent;
 mod manifold;
 
 pub use collider::{Collider, Convex, Geometry, WireArc};
