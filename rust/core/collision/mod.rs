@@ -3,12 +3,17 @@
 //! A shape of a body becomes one or more [`Collider`]s: convex cores grown by a radius, or arcs, in the
 //! frame of the body's centre of mass. Nothing here knows of mass, time or forces.
 
+mod broad_phase;
 mod collider;
 mod extent;
 mod manifold;
+mod pairs;
+mod tree;
 
+pub use broad_phase::{BroadPhase, ProxyId, TreeQuality};
 pub use collider::{Collider, Convex, Geometry, WireArc};
 pub use manifold::{Anchor, Manifold, Normal};
+pub use pairs::PairMap;
 
 use crate::math::{Pose, Rot, Vec2};
 
