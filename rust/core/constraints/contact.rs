@@ -28,7 +28,7 @@ impl Memory {
 }
 
 /// What two surfaces make of their values together.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Touch {
     /// Coulomb's coefficients.
     pub friction: Friction,

@@ -291,9 +291,9 @@ impl Shape {
         }
     }
 
-    /// Hull of the core, relative to `origin`, and the radius around it; computed from the
+    /// Hull of the core (the core itself where it is convex; of an arc its centre), relative to `origin`, and the radius around it; computed from the
     /// definition, so that boxes far from the origin keep their digits.
-    fn hull_about(&self, origin: Vec2) -> (Vec<Vec2>, Real) {
+    pub(crate) fn core_about(&self, origin: Vec2) -> (Vec<Vec2>, Real) {
         match (&self.0.def, &self.0.geometry) {
             (&ShapeDef::Box { width, height, center, angle }, _) => {
                 (def::corners_of_box(width, height, center - origin, angle), 0.0)
