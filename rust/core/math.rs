@@ -61,6 +61,12 @@ pub fn ln_1p(x: Real) -> Real {
     libm::log1p(x)
 }
 
+/// √(x² + y²) without overflow on the way.
+#[must_use]
+pub fn hypot(x: Real, y: Real) -> Real {
+    libm::hypot(x, y)
+}
+
 /// x^y; small whole exponents by multiplication.
 #[must_use]
 pub fn powf(x: Real, y: Real) -> Real {

@@ -1,7 +1,8 @@
 //! Adding, removing, reading and changing bodies.
 
 use crate::body::{Bodies, BodyDef, BodyHandle, BodyKind, DragWidth, Info, Locks, Mass, Part};
-use crate::error::{Result, check};
+use crate::body::{Filter, FilterOverride, Role, Surface, SurfaceOverride};
+use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Twist, Vec2, Wrench, cross, vec2};
 use crate::world::World;
 
@@ -322,6 +323,45 @@ impl BodyMut<'_> {
     /// Replaces the shapes. The frame stays.
     pub fn set_shapes(&mut self, shapes: Vec<Part>) -> Result<()> {
         self.edit(|def| def.shapes = shapes)
+    }
+
+    /// Sets friction, restitution and the like of shapes that have none of their own.
+    pub fn set_surface(&mut self, surface: Surface) -> Result<()> {
+        self.edit(|def| def.surface = surface)
+    }
+
+    /// Sets what shapes that have no filter of their own can touch.
+    pub fn set_filter(&mut self, filter: Filter) -> Result<()> {
+        self.edit(|def| def.filter = filter)
+    }
+
+    /// Sets what shapes that have no role of their own are there for.
+    pub fn set_role(&mut self, role: Role) -> Result<()> {
+        self.edit(|def| def.role = role)
+    }
+
+    /// Sets friction, restitution and the like of one shape, counted from 0.
+    pub fn set_part_surface(&mut self, part: usize, surface: SurfaceOverride) -> Result<()> {
+        self.edit_part(part, |part| part.surface = surface)
+    }
+
+    /// Sets what one shape, counted from 0, can touch.
+    pub fn set_part_filter(&mut self, part: usize, filter: FilterOverride) -> Result<()> {
+        self.edit_part(part, |part| part.filter = filter)
+    }
+
+    /// Sets what one shape, counted from 0, is there for; none: as the body.
+    pub fn set_part_role(&mut self, part: usize, role: Option<Role>) -> Result<()> {
+        self.edit_part(part, |part| part.role = role)
+    }
+
+    fn edit_part(&mut self, part: usize, edit: impl FnOnce(&mut Part)) -> Result<()> {
+        let shapes = self.get().info().def.shapes.len();
+        if part >= shapes {
+            let allowed = format!("a shape of the body, which has {shapes}, counted from 0");
+            return Err(Error::invalid("part", part, allowed));
+        }
+        self.edit(|def| edit(&mut def.shapes[part]))
     }
 
     /// Sets how many times gravity acts.

@@ -21,7 +21,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::arena::{Arena, HandleMap};
-use crate::body::Bodies;
+use crate::body::{Bodies, ImpactLaw, Mixing};
 use crate::error::{Error, Result, check};
 use crate::forces::{Air, Field, FieldHandle, ForceBuffers, ForceField, ForceSchedule, Ledger};
 use crate::forces::{Schedule, ScheduleHandle};
@@ -41,6 +41,12 @@ pub struct Settings {
     pub substeps: u32,
     /// Bodies under constant forces take the exact solution, whatever the method.
     pub closed_form: bool,
+    /// What two surfaces make of their coefficients together.
+    pub mixing: Mixing,
+    /// What restitution is a ratio of.
+    pub impact_law: ImpactLaw,
+    /// Bodies that have come to rest are left out of the work until something wakes them.
+    pub sleeping: bool,
     /// Each stage of a step is timed. Costs about as much as the step of one free body.
     pub timing: bool,
 }
@@ -53,6 +59,9 @@ impl Default for Settings {
             method: "leapfrog".into(),
             substeps: 4,
             closed_form: true,
+            mixing: Mixing::default(),
+            impact_law: ImpactLaw::Newton,
+            sleeping: false,
             timing: false,
         }
     }
@@ -226,6 +235,29 @@ impl World {
     /// Off, the method moves them too, with the errors it has: for teaching.
     pub fn set_closed_form(&mut self, on: bool) {
         self.state.settings.closed_form = on;
+        self.plan = None;
+    }
+
+    /// Sets what two surfaces make of their coefficients together.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] names the pair of materials that is not allowed.
+    pub fn set_mixing(&mut self, mixing: Mixing) -> Result<()> {
+        mixing.validated()?;
+        self.state.settings.mixing = mixing;
+        self.plan = None;
+        Ok(())
+    }
+
+    /// Chooses what restitution is a ratio of.
+    pub fn set_impact_law(&mut self, law: ImpactLaw) {
+        self.state.settings.impact_law = law;
+        self.plan = None;
+    }
+
+    /// Whether bodies that have come to rest are left out of the work until something wakes them.
+    pub fn set_sleeping(&mut self, on: bool) {
+        self.state.settings.sleeping = on;
         self.plan = None;
     }
 
