@@ -197,7 +197,7 @@ impl Forces<'_> {
 }
 
 /// F·v + τω over what the body is free to do.
-fn power(wrench: &Wrench, twist: &Twist, mass: &Mass) -> Real {
+pub(crate) fn power(wrench: &Wrench, twist: &Twist, mass: &Mass) -> Real {
     let free = |inverse: Real, x: Real| if inverse > 0.0 { x } else { 0.0 };
     free(mass.inverse.x, wrench.force.x * twist.linear.x)
         + free(mass.inverse.y, wrench.force.y * twist.linear.y)
@@ -225,6 +225,25 @@ fn add_field(
         *working += *own;
     }
     Ok(())
+}
+
+/// Whether drag or damping acts on a body.
+#[must_use]
+pub fn has_resistance(info: &Info, air: Air) -> bool {
+    drag::resists(info, air)
+}
+
+/// Moves a body for a time h by no force but the air's and damping, exactly.
+///
+/// # Errors
+/// A step back in time to where this drag has no state.
+pub fn drift_body(
+    mass: &Mass,
+    info: &Info,
+    air: Air,
+    motion: (Real, &mut Pose, &mut Twist),
+) -> Result<()> {
+    drag::drift(mass, info, air, motion)
 }
 
 /// Whether air or damping act on a body; the plan sorts bodies by it.

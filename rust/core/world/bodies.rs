@@ -13,13 +13,16 @@ impl World {
     /// [`crate::Error::Invalid`] names the number that is not allowed; the world stays as it was.
     pub fn add_body(&mut self, def: BodyDef) -> Result<BodyHandle> {
         let handle = self.state.bodies.insert(def)?;
+        self.state.contacts.add(&self.state.bodies);
         self.plan = None;
         Ok(handle)
     }
 
     /// Removes a body and the schedules on it. The last body takes its place in body order.
     pub fn remove_body(&mut self, body: BodyHandle) -> Result<()> {
+        let index = self.state.bodies.index(body)?;
         self.state.bodies.remove(body)?;
+        self.state.contacts.remove(index);
         self.state.schedules.retain(|schedule| schedule.body != body);
         self.plan = None;
         Ok(())
@@ -171,6 +174,7 @@ impl BodyMut<'_> {
         check::finite_vec("position", position)?;
         let (i, angle) = (self.index, self.get().angle());
         self.bodies().set_origin(i, Pose::new(position, angle));
+        self.world.state.contacts.touch(i);
         Ok(())
     }
 
@@ -179,6 +183,7 @@ impl BodyMut<'_> {
         check::finite_vec("center_at", center)?;
         let i = self.index;
         self.bodies().poses[i].position = center;
+        self.world.state.contacts.touch(i);
         Ok(())
     }
 
@@ -187,6 +192,7 @@ impl BodyMut<'_> {
         check::finite("angle", angle)?;
         let (i, position) = (self.index, self.get().position());
         self.bodies().set_origin(i, Pose::new(position, angle));
+        self.world.state.contacts.touch(i);
         Ok(())
     }
 
@@ -270,6 +276,7 @@ impl BodyMut<'_> {
     fn edit(&mut self, edit: impl FnOnce(&mut BodyDef)) -> Result<()> {
         let i = self.index;
         self.bodies().edit(i, edit)?;
+        self.world.state.contacts.replace(&self.world.state.bodies, i);
         self.world.plan = None;
         Ok(())
     }

@@ -3,6 +3,7 @@
 mod advance;
 mod bodies;
 mod columns;
+mod contacts;
 mod plan;
 mod report;
 mod snapshot;
@@ -45,6 +46,8 @@ pub struct Settings {
     pub mixing: Mixing,
     /// What restitution is a ratio of.
     pub impact_law: ImpactLaw,
+    /// Most sweeps over the rows of contacts a substep; fewer where they settle sooner.
+    pub sweeps: u32,
     /// Bodies that have come to rest are left out of the work until something wakes them.
     pub sleeping: bool,
     /// Each stage of a step is timed. Costs about as much as the step of one free body.
@@ -61,6 +64,7 @@ impl Default for Settings {
             closed_form: true,
             mixing: Mixing::default(),
             impact_law: ImpactLaw::Newton,
+            sweeps: 8,
             sleeping: false,
             timing: false,
         }
@@ -88,6 +92,7 @@ impl Clock {
 struct State {
     settings: Settings,
     bodies: Bodies,
+    contacts: contacts::Contacts,
     schedules: Arena<Schedule>,
     field_map: HandleMap<Field>,
     clock: Clock,
@@ -126,6 +131,7 @@ struct WorldScratch {
     steady: Vec<crate::math::Wrench>,
     forces: ForceBuffers,
     methods: Scratch,
+    contacts: contacts::ContactScratch,
 }
 
 impl Default for World {
@@ -211,6 +217,15 @@ impl World {
         check::finite_vec("wind", air.wind)?;
         self.state.settings.air = air;
         self.plan = None;
+        Ok(())
+    }
+
+    /// Most sweeps over the rows of contacts a substep (1 to 10 000).
+    pub fn set_sweeps(&mut self, sweeps: u32) -> Result<()> {
+        if !(1..=10_000).contains(&sweeps) {
+            return Err(Error::invalid("sweeps", sweeps, "1 to 10000"));
+        }
+        self.state.settings.sweeps = sweeps;
         Ok(())
     }
 

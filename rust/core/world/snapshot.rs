@@ -127,6 +127,7 @@ impl Snapshot {
             }
         }
         stored.state.bodies.rebuild();
+        stored.state.contacts.rebuild();
         Ok(Self { state: stored.state, fields })
     }
 }

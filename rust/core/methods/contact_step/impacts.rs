@@ -7,9 +7,10 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use super::law::{self, ImpactLaw};
+use super::law;
 use super::path::Pair;
 use super::{Group, Outcome};
+use crate::body::ImpactLaw;
 use crate::constraints::contact::{Block, moved};
 use crate::math::{Real, Twist};
 

@@ -1,26 +1,9 @@
 //! Laws of impact: which impulse an approach brings about.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use crate::body::Friction;
+use crate::body::{Friction, ImpactLaw};
 use crate::constraints::contact::Block;
 use crate::math::Real;
 use crate::solvers::block_impulses;
-
-/// What restitution e means.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum ImpactLaw {
-    /// Newton: normal velocity after = −e × before. With Coulomb's friction that can gain energy (Kane 1984); the
-    /// impulse is then limited so that ½p·(u⁺ + u⁻) ≤ 0.
-    #[default]
-    Newton,
-    /// Poisson: normal impulse of restitution = e × that of compression.
-    Poisson,
-    /// Stronge: work of the normal impulse in restitution = −e² × that in compression. Never gains energy.
-    Stronge,
-}
 
 /// Impulses of the three rows for an approach with velocities `u` beyond the tangential target.
 ///
@@ -59,6 +42,8 @@ fn response(block: &Block, p: &[Real; 3]) -> [Real; 3] {
     ]
 }
 
+/// Newton's law. With Coulomb's friction it can gain energy (Kane 1984); the impulse is then limited so that
+/// ½p·(u⁺ + u⁻) ≤ 0.
 fn newton(block: &Block, u: [Real; 3], e: [Real; 2]) -> [Real; 3] {
     let solve = |restitution: [Real; 2]| {
         let error = [u[0] * (1.0 + restitution[0]), u[1] * (1.0 + restitution[1]), u[2]];

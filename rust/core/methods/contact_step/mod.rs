@@ -14,9 +14,7 @@ mod law;
 mod path;
 mod project;
 
-pub use group::{Group, Link, Mass};
-pub use law::ImpactLaw;
-
+use crate::body::ImpactLaw;
 use crate::constraints::Place;
 use crate::constraints::contact::{Block, curvature, moved};
 use crate::error::Result;
@@ -24,6 +22,7 @@ use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
+pub use group::{Group, Link, Mass};
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {

@@ -59,6 +59,7 @@ impl World {
 
     /// Moves every group through a span.
     pub(in crate::world) fn advance_contacts(&mut self, span: Span) -> Result<()> {
+        self.state.contacts.scale_impulses(span.h());
         for k in 0..self.scratch.contacts.islands.len() {
             self.gather(k, span);
             let outcome = self.step_group(span)?;

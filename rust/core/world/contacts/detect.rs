@@ -17,7 +17,7 @@ impl World {
         let step = Step { dt, gravity: settings.gravity };
         contacts.follow(bodies, &plan.colliding, &step);
         contacts.pair_up(bodies, &settings.mixing);
-        contacts.find_manifolds(bodies, &step, settings.substeps, &mut scratch.contacts.found);
+        contacts.find_manifolds(bodies, &step, &mut scratch.contacts.found);
     }
 }
 
@@ -83,16 +83,7 @@ impl Contacts {
     }
 
     /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
-    fn find_manifolds(
-        &mut self,
-        bodies: &Bodies,
-        step: &Step,
-        substeps: u32,
-        found: &mut Vec<Manifold>,
-    ) {
-        let h = step.dt / Real::from(substeps);
-        let scale = if self.substep > 0.0 { h / self.substep } else { 0.0 };
-        self.substep = h;
+    fn find_manifolds(&mut self, bodies: &Bodies, step: &Step, found: &mut Vec<Manifold>) {
         let Self { entries, near, patches, before, frames, .. } = self;
         std::mem::swap(patches, before);
         patches.clear();
@@ -106,7 +97,7 @@ impl Contacts {
             found.clear();
             collide(&x.geometry, &y.geometry, &frames[j].seen_from(&frames[i]), margin, found);
             for manifold in &*found {
-                patches.push(Patch::remembering(place as u32, *manifold, old, scale));
+                patches.push(Patch::remembering(place as u32, *manifold, old));
             }
             pair.count = patches.len() as u32 - pair.first;
         }
@@ -114,22 +105,26 @@ impl Contacts {
 }
 
 /// How far two bodies can come together in a step (m).
-fn way_to_meet(bodies: &Bodies, step: &Step, [(i, reach_i), (j, reach_j)]: [(usize, Real); 2]) -> Real {
+fn way_to_meet(
+    bodies: &Bodies,
+    step: &Step,
+    [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
+) -> Real {
     let ((way_i, turn_i), (way_j, turn_j)) = (step.motion(bodies, i), step.motion(bodies, j));
     (way_j - way_i).norm() + turn_i.min(2.0) * reach_i + turn_j.min(2.0) * reach_j
 }
 
 /// What the surfaces of two colliders make of their values.
 fn touch(bodies: &Bodies, mixing: &Mixing, colliders: [&crate::collision::Collider; 2]) -> Touch {
-    let surfaces = colliders.map(|collider| {
+    let [a, b] = colliders.map(|collider| {
         let def = &bodies.infos[collider.body as usize].def;
-        def.shapes[collider.part as usize].surface.as_ref().unwrap_or(&def.surface)
+        def.surface_of(&def.shapes[collider.part as usize])
     });
-    let mixed = mixing.mix(surfaces[0], surfaces[1]);
+    let mixed = mixing.mix(&a, &b);
     Touch {
         friction: mixed.friction,
         restitution: mixed.restitution,
         rolling_resistance: mixed.rolling_resistance,
-        tangent_speed: surfaces[0].tangent_speed + surfaces[1].tangent_speed,
+        tangent_speed: mixed.tangent_speeds.iter().sum(),
     }
 }

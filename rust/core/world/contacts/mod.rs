@@ -83,7 +83,10 @@ impl Contacts {
         self.frames.swap_remove(body);
         let last = self.of_body.len() as u32;
         self.moved.retain(|moved| *moved as usize != body);
-        self.moved.iter_mut().filter(|moved| **moved == last).for_each(|moved| *moved = body as u32);
+        self.moved
+            .iter_mut()
+            .filter(|moved| **moved == last)
+            .for_each(|moved| *moved = body as u32);
         if let Some(proxies) = self.of_body.get(body) {
             for proxy in proxies {
                 self.entries[proxy.0 as usize].collider.body = body as u32;
@@ -101,7 +104,9 @@ impl Contacts {
     /// Tells that the places of all bodies were set.
     pub fn touch_all(&mut self) {
         self.moved.clear();
-        self.moved.extend((0..self.of_body.len() as u32).filter(|body| !self.of_body[*body as usize].is_empty()));
+        self.moved.extend(
+            (0..self.of_body.len() as u32).filter(|body| !self.of_body[*body as usize].is_empty()),
+        );
     }
 
     /// Derives what is not stored.
@@ -121,12 +126,9 @@ impl Contacts {
         let moving = def.kind != crate::body::BodyKind::Static;
         for collider in colliders(body as u32, &def.shapes, bodies.local_centers[body]) {
             let part = &def.shapes[collider.part as usize];
-            let entry = Entry {
-                filter: part.filter.unwrap_or(def.filter),
-                role: part.role,
-                collider,
-            };
-            let (tight, margin) = (entry.collider.geometry.bounds_at(&frame), margin(&entry.collider));
+            let entry = Entry { filter: def.filter_of(part), role: def.role_of(part), collider };
+            let (tight, margin) =
+                (entry.collider.geometry.bounds_at(&frame), margin(&entry.collider));
             let proxy = self.broad.insert(&tight, margin, moving);
             match self.entries.get_mut(proxy.0 as usize) {
                 Some(free) => *free = entry,

@@ -40,23 +40,22 @@ pub(in crate::world) struct Patch {
 
 impl Patch {
     /// A manifold as found, with the impulses of those points of the last step that have the same features.
-    pub fn remembering(near: u32, manifold: Manifold, before: &[Self], scale: f64) -> Self {
+    pub fn remembering(near: u32, manifold: Manifold, before: &[Self]) -> Self {
         let mut memory = Memory::NEW;
         for old in before {
-            let same = |k: usize, j: usize| {
-                manifold.anchors[k].feature == old.manifold.anchors[j].feature
-            };
+            let same =
+                |k: usize, j: usize| manifold.anchors[k].feature == old.manifold.anchors[j].feature;
             let mut kept = 0.0;
             for k in 0..manifold.count {
                 for j in (0..old.manifold.count).filter(|j| same(k, *j)) {
-                    memory.impulse[k] = old.memory.impulse[j] * scale;
+                    memory.impulse[k] = old.memory.impulse[j];
                     kept += old.memory.impulse[j];
                 }
             }
             if kept > 0.0 {
                 let sum = old.memory.impulse[0] + old.memory.impulse[1];
-                memory.impulse[2] = old.memory.impulse[2] * scale * (kept / sum);
-                memory.rolling = old.memory.rolling * scale * (kept / sum);
+                memory.impulse[2] = old.memory.impulse[2] * (kept / sum);
+                memory.rolling = old.memory.rolling * (kept / sum);
                 memory.sliding = old.memory.sliding;
             }
         }
@@ -76,6 +75,18 @@ impl Contacts {
             !gone
         });
         self.near = near;
+    }
+
+    /// Makes the remembered impulses those of a substep of length h (s).
+    pub fn scale_impulses(&mut self, h: f64) {
+        if self.substep > 0.0 && self.substep != h {
+            let scale = h / self.substep;
+            for Patch { memory, .. } in &mut self.patches {
+                memory.impulse.iter_mut().for_each(|impulse| *impulse *= scale);
+                memory.rolling *= scale;
+            }
+        }
+        self.substep = h;
     }
 
     /// The patches of a pair.
