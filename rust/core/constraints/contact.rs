@@ -84,7 +84,7 @@ pub struct Moved {
     pub gap: [Real; 2],
 }
 
-/// Where a manifold is when its bodies have moved; `apart` leads from A's centre of mass to B's.
+/// Where a manifold is when its bodies have moved; `apart` leads from A's centre of mass to B's at the start.
 #[must_use]
 pub fn moved(manifold: &Manifold, apart: Vec2, [a, b]: [&Place; 2]) -> Moved {
     let mut moved = Moved { normal: vec2(0.0, 1.0), arms: [[vec2(0.0, 0.0); 2]; 2], gap: [0.0; 2] };
@@ -94,6 +94,7 @@ pub fn moved(manifold: &Manifold, apart: Vec2, [a, b]: [&Place; 2]) -> Moved {
         Normal::Between | Normal::Inside => {}
     }
     let radii = manifold.radius_a + manifold.radius_b;
+    let apart = apart + (b.way - a.way);
     for k in 0..manifold.count {
         let anchor = &manifold.anchors[k];
         let (on_a, on_b) = (a.rot.apply(anchor.on_a), b.rot.apply(anchor.on_b));
@@ -133,6 +134,7 @@ pub fn curvature(
         return 0.0;
     }
     let n = moved.normal;
+    let apart = apart + (b.way - a.way);
     let anchor = &manifold.anchors[k];
     let (on_a, on_b) = (a.rot.apply(anchor.on_a), b.rot.apply(anchor.on_b));
     let between = apart + on_b - on_a;

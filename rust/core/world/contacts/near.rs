@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Contacts;
 use crate::collision::{Manifold, ProxyId};
 use crate::constraints::contact::{Memory, Touch};
+use crate::math::Real;
 
 /// What a pair does when it touches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,6 +26,8 @@ pub(in crate::world) struct Near {
     pub kind: Kind,
     /// Whether it touched after the last step.
     pub touching: bool,
+    /// How high it stands against gravity (m), for the order of the rows.
+    pub height: Real,
     /// Where its patches begin, and how many there are.
     pub first: u32,
     pub count: u32,
