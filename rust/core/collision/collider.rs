@@ -4,7 +4,7 @@ mod pieces;
 
 use std::f64::consts::PI;
 
-use super::narrow_phase::widths;
+use super::narrow_phase::width;
 use crate::body::Part;
 use crate::math::{Real, Rot, Vec2, cross, perp, vec2};
 use crate::shapes::{Shape, ShapeDef};
@@ -95,20 +95,12 @@ impl Convex {
         Self { vertices: vertices.into(), normals, radius, joins: None }
     }
 
-    /// Mean of the vertices: inside the core.
-    #[must_use]
-    pub fn middle(&self) -> Vec2 {
-        let first = self.vertices[0];
-        let sum: Vec2 = self.vertices.iter().map(|v| v - first).sum();
-        first + sum / self.vertices.len() as Real
-    }
-
     /// The smallest width (m), or the length of a wire.
     fn width(&self) -> Real {
         match *self.vertices {
             [a, b] if self.radius == 0.0 => (b - a).norm(),
             [_] | [_, _] => 2.0 * self.radius,
-            _ => widths(self).fold(Real::INFINITY, Real::min) + 2.0 * self.radius,
+            _ => width(self) + 2.0 * self.radius,
         }
     }
 

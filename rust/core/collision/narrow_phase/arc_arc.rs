@@ -1,7 +1,8 @@
 //! Two circular wires.
 
-use super::super::{Anchor, Convex, Frame, Manifold, Normal, WireArc};
+use super::super::{Anchor, Frame, Manifold, Normal, WireArc};
 use super::arc_convex::{self, End, ends, normal_and_gap};
+use super::axes::Core;
 use super::{Two, direction, on_arc};
 use crate::math::{Real, Vec2};
 
@@ -72,8 +73,15 @@ fn of_end(
     margin: Real,
     mirror: bool,
 ) {
-    let point = Convex::new(vec![end.place], 0.0);
-    let touching = arc_convex::collide(arc, &point, frame, margin);
+    let point = Core::disk(&end.place, 0.0);
+    let mut touching = Two::default();
+    arc_convex::on_wire(&mut touching, (arc, point, frame), margin);
+    if !mirror {
+        // End to end: once is enough.
+        for other in ends(arc) {
+            arc_convex::at_end(&mut touching, (&other, point, frame), margin);
+        }
+    }
     for (gap, mut manifold) in touching.found.into_iter().flatten() {
         let Some((normal, _)) = normal_and_gap(&manifold, frame) else { continue };
         if frame.rot.apply(end.onward).dot(&normal) > super::SAME {

@@ -1,8 +1,8 @@
 //! The closest features of two cores that do not overlap.
 
-use super::super::{Convex, Frame};
+use super::super::Frame;
 use super::Side;
-use super::axes::{Axis, axes};
+use super::axes::{Axis, Core, visit};
 use crate::math::{Real, Vec2, perp};
 
 /// Which features are closest.
@@ -19,30 +19,31 @@ pub(super) enum Closest {
 /// The point of the Minkowski difference closest to the origin lies on an edge of it, that is on a face of
 /// one core and a vertex of the other that lies deepest along the normal. Where faces are parallel the
 /// deepest vertex is one of two; hence its neighbours are looked at as well.
-pub(super) fn closest(a: &Convex, b: &Convex, b_in_a: &Frame) -> (Closest, Real) {
+pub(super) fn closest(a: Core<'_>, b: Core<'_>, b_in_a: &Frame) -> (Closest, Real) {
     let mut least = (Closest::Vertices(0, 0), Real::INFINITY);
     for (side, reference, other, frame) in
         [(Side::A, a, b, *b_in_a), (Side::B, b, a, b_in_a.inverse())]
     {
-        let n = other.vertices.len();
-        for axis in axes(reference, other, &frame) {
-            let near = [axis.vertex, axis.vertex + 1, axis.vertex + n - 1].map(|v| v % n);
-            for &vertex in &near[..n.min(3)] {
+        let few = other.vertices.len().min(3);
+        visit(reference, other, &frame, |axis| {
+            let near = [axis.vertex, other.after(axis.vertex), other.before(axis.vertex)];
+            for &vertex in &near[..few] {
                 let place = frame.apply(other.vertices[vertex]);
                 let found = of_face(side, reference, Axis { vertex, ..axis }, place);
                 if let Some(found) = found.filter(|found| found.1 < least.1) {
                     least = found;
                 }
             }
-        }
+            true
+        });
     }
     least
 }
 
 /// Distance of a vertex from a face; none if it stands behind it.
-fn of_face(side: Side, reference: &Convex, axis: Axis, place: Vec2) -> Option<(Closest, Real)> {
+fn of_face(side: Side, reference: Core<'_>, axis: Axis, place: Vec2) -> Option<(Closest, Real)> {
     let Axis { face, vertex, .. } = axis;
-    let end = (face + 1) % reference.vertices.len();
+    let end = reference.after(face);
     let [first, last] = [face, end].map(|corner| reference.vertices[corner]);
     let normal = reference.normals[face];
     let arm = place - first;
