@@ -1,5 +1,6 @@
 //! What the narrow phase sees of a shape.
 
+mod chain;
 mod pieces;
 
 use std::f64::consts::PI;
@@ -190,6 +191,11 @@ fn geometries(shape: &Shape, center: Vec2) -> Vec<Geometry> {
             let rings = std::iter::once(vertices).chain(holes);
             let pieces = pieces::joined(rings, shape.convex_pieces(), center);
             pieces.into_iter().map(Geometry::Convex).collect()
+        }
+        ShapeDef::Chain { ref points, closed, one_sided } => {
+            let points: Vec<Vec2> = points.iter().map(|p| p - center).collect();
+            let links = chain::links(&points, closed, one_sided);
+            links.into_iter().map(Geometry::Convex).collect()
         }
         _ => {
             let (core, radius) = shape.core_about(center);
