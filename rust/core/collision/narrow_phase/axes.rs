@@ -79,6 +79,17 @@ impl<'a> Core<'a> {
     }
 }
 
+impl Axis {
+    /// How much its separation may differ by rounding: a fraction of the coordinates that make it (m).
+    pub fn rounding(&self, reference: Core<'_>, other: Core<'_>, frame: &Frame) -> Real {
+        let corner = reference.vertices[self.face].amax();
+        EQUAL * (frame.position.amax() + corner + other.vertices[self.vertex].amax())
+    }
+}
+
+/// Two separations that differ by less than this fraction of the coordinates they come from are equal.
+const EQUAL: Real = 1e-12;
+
 /// All faces of `reference` against `other`, in order, until the visitor says to stop (false).
 ///
 /// The deepest vertex runs round as the normal does (rotating calipers; M. I. Shamos, "Computational

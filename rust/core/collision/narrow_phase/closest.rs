@@ -30,6 +30,12 @@ pub(super) fn closest(a: Core<'_>, b: Core<'_>, b_in_a: &Frame) -> (Closest, Rea
             for &vertex in &near[..few] {
                 let place = frame.apply(other.vertices[vertex]);
                 let found = of_face(side, reference, Axis { vertex, ..axis }, place);
+                // Of a wire, both sides are as near: the one before which all of the other lies counts.
+                let limit = axis.separation + axis.rounding(reference, other, &frame);
+                let found = found.filter(|(features, _)| match features {
+                    Closest::Face(_, Axis { separation, .. }) => *separation <= limit,
+                    Closest::Vertices(..) => true,
+                });
                 if let Some(found) = found.filter(|found| found.1 < least.1) {
                     least = found;
                 }

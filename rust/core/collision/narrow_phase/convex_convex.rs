@@ -7,9 +7,6 @@ use super::face::Face;
 use super::{SAME, Side, joined, point_point, vertex_on_vertex};
 use crate::math::{Real, Vec2};
 
-/// Two separations that differ by less than this fraction of the coordinates they come from are equal.
-const EQUAL: Real = 1e-12;
-
 /// The manifold of two convex shapes.
 #[inline]
 pub(super) fn collide(a: Core<'_>, b: Core<'_>, b_in_a: &Frame, margin: Real) -> Option<Manifold> {
@@ -39,14 +36,10 @@ impl Pair<'_> {
         Face { side, reference, other, frame, axis }
     }
 
-    /// How much separations may differ by rounding: a fraction of the coordinates that make them.
+    /// How much a separation may differ by rounding.
     pub fn rounding(&self, side: Side, axis: &Axis) -> Real {
-        let face = self.face(side, *axis);
-        let Face { reference, other, frame, .. } = face;
-        let coordinates = frame.position.amax()
-            + reference.vertices[axis.face].amax()
-            + other.vertices[axis.vertex].amax();
-        EQUAL * coordinates
+        let Face { reference, other, frame, .. } = self.face(side, *axis);
+        axis.rounding(reference, other, frame)
     }
 
     /// Separation of the cores beyond which nothing is reported (m).
