@@ -10,7 +10,7 @@ use crate::common::{
     at, convex, frames, gap, least_gap, manifolds, normal, one, reference_gap, shapes,
 };
 
-/// Normals and places of all points in the frame of A, sorted.
+/// Normals and places of all points in the frame of A.
 fn points(found: &[Manifold], frame: &Frame, swapped: Option<&Frame>) -> Vec<[Real; 4]> {
     let mut all = Vec::new();
     for m in found {
@@ -23,13 +23,14 @@ fn points(found: &[Manifold], frame: &Frame, swapped: Option<&Frame>) -> Vec<[Re
             all.push([n.x, n.y, a.x, a.y]);
         }
     }
-    all.sort_by(|x, y| x.partial_cmp(y).unwrap());
     all
 }
 
+/// Whether each point of one is one of the other.
 fn close(x: &[[Real; 4]], y: &[[Real; 4]], tolerance: Real) -> bool {
-    x.len() == y.len()
-        && x.iter().flatten().zip(y.iter().flatten()).all(|(x, y)| (x - y).abs() <= tolerance)
+    let same =
+        |p: &[Real; 4], q: &[Real; 4]| p.iter().zip(q).all(|(p, q)| (p - q).abs() <= tolerance);
+    x.len() == y.len() && x.iter().all(|p| y.iter().any(|q| same(p, q)))
 }
 
 fn arcs() -> impl Strategy<Value = Shape> {

@@ -3,7 +3,7 @@
 use super::super::{Anchor, Frame, Manifold, Normal, WireArc};
 use super::arc_convex::{self, End, ends, normal_and_gap};
 use super::axes::Core;
-use super::{Two, direction, on_arc};
+use super::{Two, direction, first_of, on_arc};
 use crate::math::{Real, Vec2, perp};
 
 /// Manifolds of two wires: where their circles touch from outside or inside, and of their ends.
@@ -85,8 +85,7 @@ fn of_end(
         }
         let side = if mirror { 2 } else { 1 };
         for anchor in &mut manifold.anchors {
-            let feature = anchor.feature as usize % 64;
-            anchor.feature = on_arc(end.number + 4 * side, feature);
+            anchor.feature = on_arc(end.number + 4 * side, first_of(anchor.feature));
         }
         found.add(gap, if mirror { manifold.mirrored() } else { manifold });
     }

@@ -75,9 +75,16 @@ fn on_arc(a: usize, b: usize) -> u32 {
     feature(3, a, b)
 }
 
-/// 2 + 15 + 15 bits; polygons of more than 32 768 sides share numbers among vertices far apart.
+/// Polygons of more sides share numbers among vertices far apart.
+const PLACES: usize = 1 << 15;
+
+/// The first of the two numbers in a feature.
+fn first_of(feature: u32) -> usize {
+    (feature >> 15) as usize % PLACES
+}
+
+/// 2 + 15 + 15 bits.
 fn feature(kind: u32, first: usize, second: usize) -> u32 {
-    const PLACES: usize = 1 << 15;
     kind << 30 | ((first % PLACES) as u32) << 15 | (second % PLACES) as u32
 }
 
