@@ -5,13 +5,15 @@ mod pieces;
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use super::narrow_phase::width;
 use crate::body::Part;
 use crate::math::{Real, Rot, Vec2, cross, perp, vec2};
 use crate::shapes::{Shape, ShapeDef};
 
 /// A piece of a shape, in the frame of its body's centre of mass.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Collider {
     /// Place of the body in body order.
     pub body: u32,
@@ -26,7 +28,7 @@ pub struct Collider {
 }
 
 /// What a collider looks like.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub enum Geometry {
     /// All points within a radius of a convex core.
     Convex(Convex),
@@ -35,7 +37,7 @@ pub enum Geometry {
 }
 
 /// A convex core, counter-clockwise, and the radius it is grown by.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Convex {
     /// One point, two, or a polygon (m).
     pub vertices: Box<[Vec2]>,
@@ -51,7 +53,7 @@ pub struct Convex {
 ///
 /// The normals under which a shape can be touched at a vertex are those between the normals of the two edges
 /// that meet there (its Gauss image); at an inner corner there are none.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Joins {
     /// For each edge: whether it belongs to the border of the whole. Cuts between pieces do not.
     pub outer: Box<[bool]>,
@@ -62,7 +64,7 @@ pub struct Joins {
 }
 
 /// The directions counter-clockwise from one unit vector to another, at most half a turn.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cone {
     /// First direction.
     pub from: Vec2,
@@ -71,7 +73,7 @@ pub struct Cone {
 }
 
 /// A circular wire, counter-clockwise from `from` to `to`, which are unit vectors.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct WireArc {
     /// Of its circle (m).
     pub center: Vec2,
@@ -106,7 +108,7 @@ impl Convex {
     }
 
     fn reach(&self) -> Real {
-        self.vertices.iter().map(|v| v.norm_squared()).fold(0.0, Real::max).sqrt() + self.radius
+        self.vertices.iter().map(Vec2::norm_squared).fold(0.0, Real::max).sqrt() + self.radius
     }
 }
 

@@ -3,13 +3,19 @@
 //! A shape of a body becomes one or more [`Collider`]s: convex cores grown by a radius, or arcs, in the
 //! frame of the body's centre of mass. Nothing here knows of mass, time or forces.
 
+mod broad_phase;
 mod collider;
+mod extent;
 mod manifold;
 mod narrow_phase;
+mod pairs;
+mod tree;
 
+pub use broad_phase::{BroadPhase, ProxyId, TreeQuality};
 pub use collider::{Collider, Cone, Convex, Geometry, Joins, WireArc, colliders};
 pub use manifold::{Anchor, Manifold, Normal};
 pub use narrow_phase::collide;
+pub use pairs::PairMap;
 
 use crate::math::{Pose, Rot, Vec2};
 

@@ -61,5 +61,5 @@ fn of_face(side: Side, reference: Core<'_>, axis: Axis, arm: Vec2) -> Option<(Cl
     if along.dot(&arm) > along.dot(&edge) {
         return corner(end, arm - edge);
     }
-    (separation >= 0.0).then(|| (Closest::Face(side, axis), separation * separation))
+    (separation >= 0.0).then_some((Closest::Face(side, axis), separation * separation))
 }
