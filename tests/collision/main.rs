@@ -4,4 +4,6 @@ mod common;
 
 mod arcs;
 mod boxes;
+mod chains;
 mod separated;
+mod symmetry;

@@ -46,6 +46,11 @@ fn shapes() -> impl Strategy<Value = ShapeDef> {
         (vector(), length(), number(), 0.1..6.0).prop_map(|(center, radius, start, sweep)| {
             ShapeDef::Arc { center, radius, start, sweep }
         }),
+        (vector(), length(), any::<[bool; 2]>()).prop_map(|(a, s, [closed, one_sided])| {
+            let points =
+                [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0)].map(|(x, y)| a + s * vec2(x, y)).to_vec();
+            ShapeDef::Chain { points, closed, one_sided }
+        }),
     ]
 }
 

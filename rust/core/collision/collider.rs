@@ -1,12 +1,13 @@
 //! What the narrow phase sees of a shape.
 
+mod chain;
 mod pieces;
 
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::narrow_phase::widths;
+use super::narrow_phase::width;
 use crate::body::Part;
 use crate::math::{Real, Rot, Vec2, cross, perp, vec2};
 use crate::shapes::{Shape, ShapeDef};
@@ -97,25 +98,17 @@ impl Convex {
         Self { vertices: vertices.into(), normals, radius, joins: None }
     }
 
-    /// Mean of the vertices: inside the core.
-    #[must_use]
-    pub fn middle(&self) -> Vec2 {
-        let first = self.vertices[0];
-        let sum: Vec2 = self.vertices.iter().map(|v| v - first).sum();
-        first + sum / self.vertices.len() as Real
-    }
-
     /// The smallest width (m), or the length of a wire.
     fn width(&self) -> Real {
         match *self.vertices {
             [a, b] if self.radius == 0.0 => (b - a).norm(),
             [_] | [_, _] => 2.0 * self.radius,
-            _ => widths(self).fold(Real::INFINITY, Real::min) + 2.0 * self.radius,
+            _ => width(self) + 2.0 * self.radius,
         }
     }
 
     fn reach(&self) -> Real {
-        self.vertices.iter().map(|v| v.norm_squared()).fold(0.0, Real::max).sqrt() + self.radius
+        self.vertices.iter().map(Vec2::norm_squared).fold(0.0, Real::max).sqrt() + self.radius
     }
 }
 
@@ -200,6 +193,11 @@ fn geometries(shape: &Shape, center: Vec2) -> Vec<Geometry> {
             let rings = std::iter::once(vertices).chain(holes);
             let pieces = pieces::joined(rings, shape.convex_pieces(), center);
             pieces.into_iter().map(Geometry::Convex).collect()
+        }
+        ShapeDef::Chain { ref points, closed, one_sided } => {
+            let points: Vec<Vec2> = points.iter().map(|p| p - center).collect();
+            let links = chain::links(&points, closed, one_sided);
+            links.into_iter().map(Geometry::Convex).collect()
         }
         _ => {
             let (core, radius) = shape.core_about(center);

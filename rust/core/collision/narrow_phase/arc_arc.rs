@@ -1,9 +1,10 @@
 //! Two circular wires.
 
-use super::super::{Anchor, Convex, Frame, Manifold, Normal, WireArc};
+use super::super::{Anchor, Frame, Manifold, Normal, WireArc};
 use super::arc_convex::{self, End, ends, normal_and_gap};
-use super::{Two, direction, on_arc};
-use crate::math::{Real, Vec2};
+use super::axes::Core;
+use super::{Two, direction, first_of, on_arc};
+use crate::math::{Real, Vec2, perp};
 
 /// Manifolds of two wires: where their circles touch from outside or inside, and of their ends.
 pub(super) fn collide(a: &WireArc, b: &WireArc, b_in_a: &Frame, margin: Real) -> Two {
@@ -39,29 +40,25 @@ fn along_centers(a: &WireArc, (own, b): (&WireArc, &WireArc)) -> Option<(Real, M
         (along - ra - rb, Manifold::point(normal, anchor, [ra, rb]))
     };
     let outside = (a.includes(unit) && b.includes(-unit))
-        .then(|| candidate(Normal::Between, [a.radius, b.radius]))
-        .filter(|_| !holds(a, chord(b)) || !holds(b, chord(a)));
+        .then(|| candidate(Normal::Between, [a.radius, b.radius]));
     let within_a = (a.radius > b.radius && a.includes(unit) && b.includes(unit))
-        .then(|| candidate(Normal::Inside, [-a.radius, b.radius]))
-        .filter(|_| holds(a, chord(b)));
+        .then(|| candidate(Normal::Inside, [-a.radius, b.radius]));
     let within_b = (b.radius > a.radius && a.includes(-unit) && b.includes(-unit))
-        .then(|| candidate(Normal::Inside, [a.radius, -b.radius]))
-        .filter(|_| holds(b, chord(a)));
+        .then(|| candidate(Normal::Inside, [a.radius, -b.radius]));
     let candidates = [outside, within_a, within_b].into_iter().flatten();
-    candidates.max_by(|x, y| x.0.total_cmp(&y.0))
+    let (gap, manifold) = candidates.max_by(|x, y| x.0.total_cmp(&y.0))?;
+    (gap >= 0.0 || cross(a, b, (unit, distance))).then_some((gap, manifold))
 }
 
-/// The middle of the chord of a wire; of more than half a circle the centre.
-fn chord(arc: &WireArc) -> Vec2 {
-    if arc.sweep >= std::f64::consts::PI {
-        return arc.center;
-    }
-    arc.center + (arc.from + arc.to) * (arc.radius / 2.0)
-}
-
-/// Whether a point lies in the circle of a wire.
-fn holds(arc: &WireArc, point: Vec2) -> bool {
-    (point - arc.center).norm_squared() < arc.radius * arc.radius
+/// Whether two wires whose circles overlap cross: at one of the two points where the circles do, t along the
+/// line of centres and h off it, t = (d² + a² − b²)/2d, h² = a² − t². Otherwise they went past each other.
+fn cross(a: &WireArc, b: &WireArc, (unit, distance): (Vec2, Real)) -> bool {
+    let t = (distance + (a.radius - b.radius) * ((a.radius + b.radius) / distance)) / 2.0;
+    let h = ((a.radius - t) * (a.radius + t)).max(0.0).sqrt();
+    [h, -h].into_iter().any(|h| {
+        let arm = unit * t + perp(unit) * h;
+        a.includes(arm) && b.includes(arm - unit * distance)
+    })
 }
 
 /// An end of one wire against the other: a point without radius, if it is met in front of the end.
@@ -72,8 +69,15 @@ fn of_end(
     margin: Real,
     mirror: bool,
 ) {
-    let point = Convex::new(vec![end.place], 0.0);
-    let touching = arc_convex::collide(arc, &point, frame, margin);
+    let point = Core::disk(&end.place, 0.0);
+    let mut touching = Two::default();
+    arc_convex::on_wire(&mut touching, (arc, point, frame), margin);
+    if !mirror {
+        // End to end: once is enough.
+        for other in ends(arc) {
+            arc_convex::at_end(&mut touching, (&other, point, frame), margin);
+        }
+    }
     for (gap, mut manifold) in touching.found.into_iter().flatten() {
         let Some((normal, _)) = normal_and_gap(&manifold, frame) else { continue };
         if frame.rot.apply(end.onward).dot(&normal) > super::SAME {
@@ -81,8 +85,7 @@ fn of_end(
         }
         let side = if mirror { 2 } else { 1 };
         for anchor in &mut manifold.anchors {
-            let feature = anchor.feature as usize % 64;
-            anchor.feature = on_arc(end.number + 4 * side, feature);
+            anchor.feature = on_arc(end.number + 4 * side, first_of(anchor.feature));
         }
         found.add(gap, if mirror { manifold.mirrored() } else { manifold });
     }

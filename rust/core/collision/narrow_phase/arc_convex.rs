@@ -1,26 +1,35 @@
 //! A circular wire and a convex shape. The wire is A here.
 
-use super::super::{Anchor, Convex, Frame, Manifold, Normal, WireArc};
+use super::super::{Anchor, Frame, Manifold, Normal, WireArc};
+use super::axes::Core;
 use super::{SAME, Two, convex_convex, direction, on_arc};
 use crate::math::{Real, Vec2, perp, vec2};
 
 /// Manifolds of a wire and a convex shape: of up to two corners that stand inside the wire's circle, or of
 /// the point nearest to its centre outside, and of the wire's ends.
-pub(super) fn collide(arc: &WireArc, convex: &Convex, frame: &Frame, margin: Real) -> Two {
+pub(super) fn collide(arc: &WireArc, convex: Core<'_>, frame: &Frame, margin: Real) -> Two {
     let mut found = Two::default();
-    match inner_point(arc, convex, frame) {
-        Some(inner) => inside(&mut found, (arc, convex, frame), inner, margin),
-        None => outside(&mut found, (arc, convex, frame), margin),
-    }
+    on_wire(&mut found, (arc, convex, frame), margin);
     for end in ends(arc) {
         at_end(&mut found, (&end, convex, frame), margin);
     }
     found
 }
 
+/// The same of the wire without its ends.
+pub(super) fn on_wire(found: &mut Two, (arc, convex, frame): Seen<'_>, margin: Real) {
+    match inner_point(arc, convex, frame) {
+        Some(inner) => inside(found, (arc, convex, frame), inner, margin),
+        None => outside(found, (arc, convex, frame), margin),
+    }
+}
+
+/// A wire, a core, and the frame of the core seen from the wire's.
+type Seen<'a> = (&'a WireArc, Core<'a>, &'a Frame);
+
 /// A point of the core inside the wire's circle, if the shape stands there or came in through the opening;
 /// none if it stands outside, even where it reaches in through the wire.
-fn inner_point(arc: &WireArc, convex: &Convex, frame: &Frame) -> Option<Vec2> {
+fn inner_point(arc: &WireArc, convex: Core<'_>, frame: &Frame) -> Option<Vec2> {
     let middle = frame.apply(convex.middle());
     if (middle - arc.center).norm_squared() <= arc.radius * arc.radius {
         return Some(middle);
@@ -43,13 +52,13 @@ fn crosses(arc: &WireArc, inner: Vec2, outer: Vec2) -> bool {
 
 /// The point of the core nearest to a point (in the outer frame of `frame`); that point itself if it lies in
 /// the core.
-fn nearest_point(convex: &Convex, frame: &Frame, point: Vec2) -> Vec2 {
+fn nearest_point(convex: Core<'_>, frame: &Frame, point: Vec2) -> Vec2 {
     let local = frame.apply_inverse(point);
     let n = convex.vertices.len();
     let mut nearest = (convex.vertices[0], (convex.vertices[0] - local).norm_squared());
     let mut within = n > 2;
     for (i, &normal) in convex.normals.iter().enumerate() {
-        let (a, b) = (convex.vertices[i], convex.vertices[(i + 1) % n]);
+        let (a, b) = (convex.vertices[i], convex.vertices[convex.after(i)]);
         within &= normal.dot(&(local - a)) <= 0.0;
         let edge = b - a;
         let foot = a + edge * ((local - a).dot(&edge) / edge.norm_squared()).clamp(0.0, 1.0);
@@ -62,12 +71,7 @@ fn nearest_point(convex: &Convex, frame: &Frame, point: Vec2) -> Vec2 {
 }
 
 /// Corners of the core against the inner side of the wire, the two that stand farthest out.
-fn inside(
-    found: &mut Two,
-    (arc, convex, frame): (&WireArc, &Convex, &Frame),
-    inner: Vec2,
-    margin: Real,
-) {
+fn inside(found: &mut Two, (arc, convex, frame): Seen<'_>, inner: Vec2, margin: Real) {
     for (i, &on_b) in convex.vertices.iter().enumerate() {
         let place = frame.apply(on_b);
         let arm = place - arc.center;
@@ -97,9 +101,9 @@ fn middle_of(arc: &WireArc) -> Vec2 {
 }
 
 /// The core against the outer side of the wire: as against its circle, if that is met on the wire.
-fn outside(found: &mut Two, (arc, convex, frame): (&WireArc, &Convex, &Frame), margin: Real) {
-    let disk = Convex::new(vec![arc.center], arc.radius);
-    let Some(manifold) = convex_convex::collide(&disk, convex, frame, margin) else { return };
+fn outside(found: &mut Two, (arc, convex, frame): Seen<'_>, margin: Real) {
+    let disk = Core::disk(&arc.center, arc.radius);
+    let Some(manifold) = convex_convex::collide(disk, convex, frame, margin) else { return };
     if let Some((normal, gap)) = normal_and_gap(&manifold, frame)
         && arc.includes(normal)
     {
@@ -126,9 +130,13 @@ pub(super) fn ends(arc: &WireArc) -> impl Iterator<Item = End> {
 }
 
 /// An end of the wire against the core, if it is met in front of the end.
-fn at_end(found: &mut Two, (end, convex, frame): (&End, &Convex, &Frame), margin: Real) {
-    let point = Convex::new(vec![end.place], 0.0);
-    let Some(mut manifold) = convex_convex::collide(&point, convex, frame, margin) else { return };
+pub(super) fn at_end(
+    found: &mut Two,
+    (end, convex, frame): (&End, Core<'_>, &Frame),
+    margin: Real,
+) {
+    let point = Core::disk(&end.place, 0.0);
+    let Some(mut manifold) = convex_convex::collide(point, convex, frame, margin) else { return };
     for anchor in &mut manifold.anchors {
         anchor.feature = on_arc(end.number, anchor.feature as usize);
     }

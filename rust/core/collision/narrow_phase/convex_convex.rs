@@ -1,19 +1,16 @@
 //! Two convex cores and the radii around them.
 
-use super::super::{Anchor, Convex, Frame, Manifold};
-use super::axes::{Axis, best};
+use super::super::{Anchor, Frame, Manifold};
+use super::axes::{Axis, Core, best};
 use super::closest::{Closest, closest};
 use super::face::Face;
 use super::{SAME, Side, joined, point_point, vertex_on_vertex};
 use crate::math::{Real, Vec2};
 
-/// Two separations that differ by less than this fraction of the coordinates they come from are equal.
-const EQUAL: Real = 1e-12;
-
 /// The manifold of two convex shapes.
 #[inline]
-pub(super) fn collide(a: &Convex, b: &Convex, b_in_a: &Frame, margin: Real) -> Option<Manifold> {
-    if let ([_], [_]) = (&*a.vertices, &*b.vertices) {
+pub(super) fn collide(a: Core<'_>, b: Core<'_>, b_in_a: &Frame, margin: Real) -> Option<Manifold> {
+    if let ([_], [_]) = (a.vertices, b.vertices) {
         return corners(a, b, b_in_a, (0, 0), margin);
     }
     let pair = Pair { a, b, b_in_a, a_in_b: b_in_a.inverse(), margin };
@@ -22,8 +19,8 @@ pub(super) fn collide(a: &Convex, b: &Convex, b_in_a: &Frame, margin: Real) -> O
 
 /// Two cores, each seen from the other.
 pub(super) struct Pair<'a> {
-    pub a: &'a Convex,
-    pub b: &'a Convex,
+    pub a: Core<'a>,
+    pub b: Core<'a>,
     pub b_in_a: &'a Frame,
     pub a_in_b: Frame,
     pub margin: Real,
@@ -39,14 +36,10 @@ impl Pair<'_> {
         Face { side, reference, other, frame, axis }
     }
 
-    /// How much separations may differ by rounding: a fraction of the coordinates that make them.
+    /// How much a separation may differ by rounding.
     pub fn rounding(&self, side: Side, axis: &Axis) -> Real {
-        let face = self.face(side, *axis);
-        let Face { reference, other, frame, .. } = face;
-        let coordinates = frame.position.amax()
-            + reference.vertices[axis.face].amax()
-            + other.vertices[axis.vertex].amax();
-        EQUAL * coordinates
+        let Face { reference, other, frame, .. } = self.face(side, *axis);
+        axis.rounding(reference, other, frame)
     }
 
     /// Separation of the cores beyond which nothing is reported (m).
@@ -105,8 +98,8 @@ fn free(pair: &Pair<'_>) -> Option<Manifold> {
 
 /// Whether two vertices are too close for the line between them to be a normal.
 pub(super) fn is_contact(pair: &Pair<'_>, (i, j): (usize, usize), squared: Real) -> bool {
-    let length = |core: &Convex, i: usize| {
-        let next = core.vertices[(i + 1) % core.vertices.len()];
+    let length = |core: Core<'_>, i: usize| {
+        let next = core.vertices[core.after(i)];
         (next - core.vertices[i]).norm_squared()
     };
     let longest = length(pair.a, i).max(length(pair.b, j));
@@ -115,8 +108,8 @@ pub(super) fn is_contact(pair: &Pair<'_>, (i, j): (usize, usize), squared: Real)
 
 #[inline]
 fn corners(
-    a: &Convex,
-    b: &Convex,
+    a: Core<'_>,
+    b: Core<'_>,
     b_in_a: &Frame,
     (i, j): (usize, usize),
     margin: Real,

@@ -1,7 +1,7 @@
 //! Points of one core above a face of the other.
 
-use super::super::{Anchor, Convex, Frame, Manifold, Normal};
-use super::axes::Axis;
+use super::super::{Anchor, Frame, Manifold, Normal};
+use super::axes::{Axis, Core};
 use super::{SAME, Side, vertex_on_edge};
 use crate::math::{Real, Vec2, perp};
 
@@ -12,8 +12,8 @@ const STEEP: Real = std::f64::consts::FRAC_1_SQRT_2;
 #[derive(Clone, Copy)]
 pub(super) struct Face<'a> {
     pub side: Side,
-    pub reference: &'a Convex,
-    pub other: &'a Convex,
+    pub reference: Core<'a>,
+    pub other: Core<'a>,
     pub frame: &'a Frame,
     pub axis: Axis,
 }
@@ -43,7 +43,7 @@ impl Face<'_> {
         let normal = reference.normals[face];
         let along = perp(normal);
         let begin = reference.vertices[face];
-        let end = reference.vertices[following(reference, face)];
+        let end = reference.vertices[reference.after(face)];
         let stretch = [along.dot(&begin), along.dot(&end)];
         let point = |vertex: usize| {
             let local = other.vertices[vertex];
@@ -73,15 +73,14 @@ impl Face<'_> {
 
     /// The edge at the deepest vertex that faces the face most, and its other end.
     fn incident(&self, normal: Vec2) -> Option<(usize, usize)> {
-        let n = self.other.vertices.len();
-        if n < 2 {
+        if self.other.vertices.len() < 2 {
             return None;
         }
         let down = self.frame.rot.apply_inverse(normal);
         let vertex = self.axis.vertex;
-        let before = if vertex == 0 { n - 1 } else { vertex - 1 };
+        let before = self.other.before(vertex);
         let facing = |edge: usize| -down.dot(&self.other.normals[edge]);
-        let after = following(self.other, vertex);
+        let after = self.other.after(vertex);
         let (edge, end) =
             if facing(vertex) >= facing(before) { (vertex, after) } else { (before, before) };
         (facing(edge) >= STEEP).then_some((edge, end))
@@ -93,7 +92,7 @@ impl Face<'_> {
         let (limit, corner) = if p.along < low {
             (low, face)
         } else if p.along > high {
-            (high, following(self.reference, face))
+            (high, self.reference.after(face))
         } else {
             return Some(p);
         };
@@ -141,9 +140,4 @@ impl Above {
         let oriented = if side == Side::A { manifold } else { manifold.mirrored() };
         (count > 0).then_some(oriented)
     }
-}
-
-/// The vertex after this one.
-fn following(core: &Convex, vertex: usize) -> usize {
-    if vertex + 1 < core.vertices.len() { vertex + 1 } else { 0 }
 }

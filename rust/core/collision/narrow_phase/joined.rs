@@ -1,8 +1,8 @@
 //! Links of chains and pieces of polygons: the normals that their neighbours leave them.
 
-use super::super::{Convex, Manifold};
+use super::super::Manifold;
 use super::Side;
-use super::axes::{Axis, axes};
+use super::axes::{Axis, Core, visit};
 use super::closest::{Closest, closest};
 use super::convex_convex::{Pair, is_contact};
 use crate::math::{Real, Vec2};
@@ -77,7 +77,7 @@ fn bests(pair: &Pair<'_>, side: Side) -> Bests {
         Side::B => (pair.b, pair.a, &pair.a_in_b),
     };
     let mut bests = Bests { any: None, allowed: None };
-    for axis in axes(reference, other, frame) {
+    visit(reference, other, frame, |axis| {
         let beats = |best: Option<Axis>| best.is_none_or(|best| axis.separation > best.separation);
         if beats(bests.any) {
             bests.any = Some(axis);
@@ -85,27 +85,28 @@ fn bests(pair: &Pair<'_>, side: Side) -> Bests {
         if beats(bests.allowed) && is_allowed(pair, side, &axis) {
             bests.allowed = Some(axis);
         }
-    }
+        true
+    });
     bests
 }
 
 /// Whether a face may be touched, and the deepest vertex along its normal.
 fn is_allowed(pair: &Pair<'_>, side: Side, axis: &Axis) -> bool {
     let face = pair.face(side, *axis);
-    let outer = face.reference.joins.as_ref().is_none_or(|joins| joins.outer[axis.face]);
+    let outer = face.reference.joins.is_none_or(|joins| joins.outer[axis.face]);
     let normal = face.reference.normals[axis.face];
     outer && allows(face.other, axis.vertex, -face.frame.rot.apply_inverse(normal))
 }
 
 /// Whether a shape may be touched at a vertex under a normal.
-fn allows(core: &Convex, vertex: usize, normal: Vec2) -> bool {
-    let Some(joins) = &core.joins else { return true };
+fn allows(core: Core<'_>, vertex: usize, normal: Vec2) -> bool {
+    let Some(joins) = core.joins else { return true };
     joins.cones[vertex].is_some_and(|cone| cone.holds(normal, SLACK))
 }
 
 /// Whether a point stands behind a shape with one side.
-fn is_behind(core: &Convex, point: Vec2) -> bool {
-    let Some(joins) = core.joins.as_ref().filter(|joins| joins.one_sided) else { return false };
-    let mut faces = joins.outer.iter().zip(&core.normals).zip(&core.vertices);
+fn is_behind(core: Core<'_>, point: Vec2) -> bool {
+    let Some(joins) = core.joins.filter(|joins| joins.one_sided) else { return false };
+    let mut faces = joins.outer.iter().zip(core.normals).zip(core.vertices);
     faces.any(|((&outer, normal), vertex)| outer && normal.dot(&(point - vertex)) < 0.0)
 }

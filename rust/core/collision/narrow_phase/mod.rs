@@ -2,7 +2,7 @@
 //!
 //! All convex shapes are cores grown by a radius: one point (circles), two (capsules, segments, links of
 //! chains) or a polygon. Separation along a face normal and the closest features of two cores both follow
-//! from one walk around the border of their Minkowski difference ([`axes`]): its edges are the faces of one
+//! from one walk around the border of their Minkowski difference ([`axes::visit`]): its edges are the faces of one
 //! core against the vertex of the other that lies deepest along their normal.
 
 mod arc_arc;
@@ -14,7 +14,8 @@ mod face;
 mod joined;
 mod point_point;
 
-pub(super) use axes::widths;
+use axes::Core;
+pub(super) use axes::width;
 
 use super::{Anchor, Frame, Geometry, Manifold, Normal};
 use crate::math::{Real, Vec2};
@@ -30,13 +31,13 @@ const SAME: Real = 1e-9;
 pub fn collide(a: &Geometry, b: &Geometry, b_in_a: &Frame, margin: Real, out: &mut Vec<Manifold>) {
     match (a, b) {
         (Geometry::Convex(a), Geometry::Convex(b)) => {
-            out.extend(convex_convex::collide(a, b, b_in_a, margin));
+            out.extend(convex_convex::collide(Core::of(a), Core::of(b), b_in_a, margin));
         }
         (Geometry::Arc(a), Geometry::Convex(b)) => {
-            arc_convex::collide(a, b, b_in_a, margin).push_to(out, false);
+            arc_convex::collide(a, Core::of(b), b_in_a, margin).push_to(out, false);
         }
         (Geometry::Convex(a), Geometry::Arc(b)) => {
-            arc_convex::collide(b, a, &b_in_a.inverse(), margin).push_to(out, true);
+            arc_convex::collide(b, Core::of(a), &b_in_a.inverse(), margin).push_to(out, true);
         }
         (Geometry::Arc(a), Geometry::Arc(b)) => {
             arc_arc::collide(a, b, b_in_a, margin).push_to(out, false);
@@ -74,9 +75,16 @@ fn on_arc(a: usize, b: usize) -> u32 {
     feature(3, a, b)
 }
 
-/// 2 + 15 + 15 bits; polygons of more than 32 768 sides share numbers among vertices far apart.
+/// Polygons of more sides share numbers among vertices far apart.
+const PLACES: usize = 1 << 15;
+
+/// The first of the two numbers in a feature.
+fn first_of(feature: u32) -> usize {
+    (feature >> 15) as usize % PLACES
+}
+
+/// 2 + 15 + 15 bits.
 fn feature(kind: u32, first: usize, second: usize) -> u32 {
-    const PLACES: usize = 1 << 15;
     kind << 30 | ((first % PLACES) as u32) << 15 | (second % PLACES) as u32
 }
 
