@@ -12,7 +12,8 @@ const MARGIN: Real = 0.05;
 /// Centres of a pile, in rows, slightly out of line.
 fn center(k: u32) -> Vec2 {
     let jitter = Real::from(k.wrapping_mul(2_654_435_761) >> 16) / 65_536.0;
-    vec2(Real::from(k % COLUMNS), Real::from(k / COLUMNS)) * 1.02 + vec2(jitter, 1.0 - jitter) * 0.02
+    vec2(Real::from(k % COLUMNS), Real::from(k / COLUMNS)) * 1.02
+        + vec2(jitter, 1.0 - jitter) * 0.02
 }
 
 fn unit_box(center: Vec2) -> Aabb {
@@ -50,7 +51,9 @@ fn broad_phase(criterion: &mut Criterion) {
     criterion.bench_function("broad phase: all pairs of 10 000", |b| {
         b.iter_batched_ref(pile, |broad| step(broad, 0.0, 0.0), BatchSize::LargeInput);
     });
-    for (name, speed) in [("at rest", 0.0), ("0.001 widths a step", 1e-3), ("0.1 widths a step", 0.1)] {
+    for (name, speed) in
+        [("at rest", 0.0), ("0.001 widths a step", 1e-3), ("0.1 widths a step", 0.1)]
+    {
         let mut settled = pile();
         settled.find_pairs(|_, _| true, |_, _| {});
         let start = settled.quality();

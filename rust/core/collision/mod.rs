@@ -4,17 +4,24 @@
 //! frame of the body's centre of mass. Nothing here knows of mass, time or forces.
 
 mod broad_phase;
+mod cast;
 mod collider;
+mod core;
+mod distance;
 mod manifold;
 mod pairs;
+mod time_of_impact;
 mod tree;
 
 pub use broad_phase::{BroadPhase, ProxyId, TreeQuality};
+pub use cast::{Hit, cast_ray, cast_shape};
 pub use collider::{Collider, Convex, Geometry, WireArc};
+pub use distance::{Closest, contains, distance, distance_to_point, overlap};
 pub use manifold::{Anchor, Manifold, Normal};
 pub use pairs::PairMap;
+pub use time_of_impact::{Impact, Sweep, first_impact, time_of_impact};
 
-use crate::math::{Pose, Rot, Vec2};
+use crate::math::{Pose, Rot, Vec2, vec2};
 
 /// A frame in another: where its origin stands and how it is turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +33,9 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The outer frame itself.
+    pub const IDENTITY: Self = Self { position: vec2(0.0, 0.0), rot: Rot::IDENTITY };
+
     /// The frame of a pose.
     #[must_use]
     pub fn of(pose: &Pose) -> Self {
