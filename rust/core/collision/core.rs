@@ -83,11 +83,11 @@ impl Edge {
         }
     }
 
-    /// Whether `p` lies between the perpendiculars through the ends.
+    /// Whether `p` lies between the perpendiculars through the ends, which must differ.
     pub fn spans(&self, p: Vec2) -> bool {
         let [from, to] = self.ends;
         let along = to - from;
-        (p - from).dot(&along) >= 0.0 && (p - to).dot(&along) <= 0.0
+        from != to && (p - from).dot(&along) >= 0.0 && (p - to).dot(&along) <= 0.0
     }
 }
 
