@@ -65,7 +65,7 @@ proptest! {
             prop_assert!(apart(end * Real::from(k) / 300.0) >= -1e-12 || end == 0.0);
         }
         if let Some(hit) = hit.filter(|hit| hit.fraction > 0.0) {
-            prop_assert!(apart(hit.fraction).abs() < 1e-12);
+            prop_assert!(apart(hit.fraction).abs() < 1e-12, "{:e} {:?}", apart(hit.fraction), hit);
             let on_b = distance_to_point(&b, rest.apply_inverse(hit.point));
             prop_assert!(on_b.distance.abs() < 1e-12);
             prop_assert!((hit.normal.norm() - 1.0).abs() < 1e-12 && hit.normal.dot(&translation) < 1e-9);

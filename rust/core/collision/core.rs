@@ -156,14 +156,17 @@ pub(super) fn includes(arc: &WireArc, direction: Vec2) -> bool {
     }
 }
 
-/// How far a point is from an arc (m), and the nearest point of it.
-pub(super) fn point_to_arc(arc: &WireArc, p: Vec2) -> (Real, Vec2) {
+/// How far a point is from an arc (m), the nearest point of it, and, where that is not an end, the unit vector that
+/// leads there: exact also where the two all but coincide.
+pub(super) fn point_to_arc(arc: &WireArc, p: Vec2) -> (Real, Vec2, Option<Vec2>) {
     let arm = p - arc.center;
     let length = arm.norm();
     if length > 0.0 && includes(arc, arm) {
-        return ((length - arc.radius).abs(), arc.center + arm * (arc.radius / length));
+        let outward = arm / length;
+        let normal = if length <= arc.radius { outward } else { -outward };
+        return ((length - arc.radius).abs(), arc.center + outward * arc.radius, Some(normal));
     }
-    let [from, to] = ends(arc).map(|end| ((p - end).norm(), end));
+    let [from, to] = ends(arc).map(|end| ((p - end).norm(), end, None));
     if from.0 <= to.0 { from } else { to }
 }
 

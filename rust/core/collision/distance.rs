@@ -52,6 +52,13 @@ impl Closest {
         Self { distance, on_a, on_b, normal }
     }
 
+    /// Of a point of A and an arc.
+    fn of_point_and_arc(on_a: Vec2, arc: &WireArc) -> Self {
+        let (distance, on_b, normal) = point_to_arc(arc, on_a);
+        let points = Self::of_points(on_a, on_b);
+        Self { distance, normal: normal.unwrap_or(points.normal), ..points }
+    }
+
     fn crossing(at: Vec2, normal: Vec2) -> Self {
         Self { distance: 0.0, on_a: at, on_b: at, normal }
     }
@@ -142,7 +149,7 @@ fn convex_to_arc(core: &Convex, arc: &WireArc) -> Closest {
     let [from, to] = ends(arc).map(at_end);
     let mut closest = from.nearer(to);
     for &vertex in &core.vertices {
-        closest = closest.nearer(Closest::of_points(vertex, point_to_arc(arc, vertex).1));
+        closest = closest.nearer(Closest::of_point_and_arc(vertex, arc));
     }
     for edge in edges(core) {
         let height = edge.normal.dot(&(arc.center - edge.ends[0]));
@@ -173,8 +180,8 @@ fn outward(border: Vec2, inside: Vec2) -> Vec2 {
 /// Distance of two arcs in one frame. They are nearest at an end of one, or on the line through the centres;
 /// or they cross.
 fn arc_to_arc(a: &WireArc, b: &WireArc) -> Closest {
-    let of_b = |end: Vec2| Closest::of_points(point_to_arc(a, end).1, end);
-    let of_a = |end: Vec2| Closest::of_points(end, point_to_arc(b, end).1);
+    let of_b = |end: Vec2| Closest::of_point_and_arc(end, a).flipped();
+    let of_a = |end: Vec2| Closest::of_point_and_arc(end, b);
     let ends = ends(b).map(of_b).into_iter().chain(ends(a).map(of_a));
     let apart = b.center - a.center;
     let length = apart.norm();
@@ -186,10 +193,14 @@ fn arc_to_arc(a: &WireArc, b: &WireArc) -> Closest {
         return closest;
     }
     let u = apart / length;
-    for on_a in [u, -u].into_iter().filter(|&u| includes(a, u)) {
-        for on_b in [u, -u].into_iter().filter(|&u| includes(b, u)) {
-            let (on_a, on_b) = (a.center + on_a * a.radius, b.center + on_b * b.radius);
-            closest = closest.nearer(Closest::of_points(on_a, on_b));
+    // Points at ±u on either circle; from one to the other it is along u.
+    for side_a in [1.0, -1.0].into_iter().filter(|side| includes(a, u * *side)) {
+        for side_b in [1.0, -1.0].into_iter().filter(|side| includes(b, u * *side)) {
+            let along = length + side_b * b.radius - side_a * a.radius;
+            let [on_a, on_b] =
+                [(a, side_a), (b, side_b)].map(|(arc, side)| arc.center + u * (side * arc.radius));
+            let normal = u * Real::signum(along);
+            closest = closest.nearer(Closest { distance: along.abs(), on_a, on_b, normal });
         }
     }
     // Where the circles cross: x along the line through the centres, from that of A.
@@ -224,13 +235,14 @@ pub fn contains(geometry: &Geometry, point: Vec2) -> bool {
 /// outward normal there.
 #[must_use]
 pub fn distance_to_point(geometry: &Geometry, point: Vec2) -> Closest {
-    let (radius, (distance, nearest)) = match geometry {
-        Geometry::Convex(core) => (core.radius, point_to_convex(core, point)),
-        Geometry::Arc(arc) => (0.0, point_to_arc(arc, point)),
+    let core = match geometry {
+        Geometry::Convex(core) => core,
+        Geometry::Arc(arc) => return Closest::of_point_and_arc(point, arc).flipped(),
     };
+    let (distance, nearest) = point_to_convex(core, point);
     let mut closest = Closest::of_points(nearest, point);
     if distance < 0.0 {
         closest = Closest { distance, normal: -closest.normal, ..closest };
     }
-    closest.grown([radius, 0.0])
+    closest.grown([core.radius, 0.0])
 }

@@ -193,20 +193,29 @@ impl Search {
             }
             let poor = widest - self.target < 0.5 * (closest.distance - self.target);
             if poor && let Some(pieces) = self.split(a, b) {
-                let mut hit = None;
-                for (a, b) in pieces {
-                    let until = self.until;
-                    let found = self.first(a, b, time);
-                    self.until = found.as_ref().map_or(until, |found: &Impact| found.fraction);
-                    hit = found.or(hit);
-                }
-                return hit;
+                return self.first_of(pieces, time);
             }
             if time + stretch <= time {
                 return Some(here);
             }
             time += stretch;
         }
+    }
+
+    /// The nearer pair first, since what it finds bounds the search of the other.
+    fn first_of(&mut self, mut pairs: [(Core<'_>, Core<'_>); 2], time: Real) -> Option<Impact> {
+        let (_, b_in_a) = self.frames(time);
+        let [near, far] = pairs.map(|(a, b)| between(a, b, &b_in_a).distance);
+        if far < near {
+            pairs.reverse();
+        }
+        let until = self.until;
+        let mut hit: Option<Impact> = None;
+        for (a, b) in pairs {
+            hit = self.first(a, b, time).or(hit);
+            self.until = hit.as_ref().map_or(until, |hit| hit.fraction);
+        }
+        hit
     }
 
     /// The rotation of A, and B as seen from A.
