@@ -4,20 +4,27 @@
 //! frame of the body's centre of mass. Nothing here knows of mass, time or forces.
 
 mod broad_phase;
+mod cast;
 mod collider;
+mod core;
+mod distance;
 mod extent;
 mod manifold;
 mod narrow_phase;
 mod pairs;
+mod time_of_impact;
 mod tree;
 
 pub use broad_phase::{BroadPhase, ProxyId, TreeQuality};
+pub use cast::{Hit, cast_ray, cast_shape};
 pub use collider::{Collider, Cone, Convex, Geometry, Joins, WireArc, colliders};
+pub use distance::{Closest, contains, distance, distance_to_point, overlap};
 pub use manifold::{Anchor, Manifold, Normal};
 pub use narrow_phase::collide;
 pub use pairs::PairMap;
+pub use time_of_impact::{Impact, Sweep, first_impact, time_of_impact};
 
-use crate::math::{Pose, Rot, Vec2};
+use crate::math::{Pose, Rot, Vec2, vec2};
 
 /// A frame in another: where its origin stands and how it is turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,7 +37,11 @@ pub struct Frame {
 
 impl Frame {
     /// The outer frame itself.
+<<<<<<< HEAD
     pub const IDENTITY: Self = Self { position: Vec2::new(0.0, 0.0), rot: Rot::IDENTITY };
+=======
+    pub const IDENTITY: Self = Self { position: vec2(0.0, 0.0), rot: Rot::IDENTITY };
+>>>>>>> broad
 
     /// The frame of a pose.
     #[must_use]
