@@ -7,6 +7,7 @@ use culbuto::shapes::ShapeDef;
 use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::convert::{self, Vec2Arg};
 use crate::shape::{Shape, checked, rows};
@@ -69,14 +70,14 @@ pub struct Circle;
 #[pymethods]
 impl Circle {
     #[new]
-    #[pyo3(signature = (radius, *, center=ORIGIN, density=None))]
+    #[pyo3(signature = (radius, *, center=ORIGIN, **own))]
     fn new(
         radius: Real,
         center: Vec2Arg,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let def = ShapeDef::Circle { radius, center: center.0 };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 }
 
@@ -94,16 +95,16 @@ pub struct Rectangle;
 #[pymethods]
 impl Rectangle {
     #[new]
-    #[pyo3(signature = (width, height, *, center=ORIGIN, angle=0.0, density=None))]
+    #[pyo3(signature = (width, height, *, center=ORIGIN, angle=0.0, **own))]
     fn new(
         width: Real,
         height: Real,
         center: Vec2Arg,
         angle: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let def = ShapeDef::Box { width, height, center: center.0, angle };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 
     /// Corners (4, 2), counter-clockwise (m).
@@ -131,17 +132,17 @@ pub struct RegularPolygon;
 #[pymethods]
 impl RegularPolygon {
     #[new]
-    #[pyo3(signature = (sides, radius, *, center=ORIGIN, angle=0.0, density=None))]
+    #[pyo3(signature = (sides, radius, *, center=ORIGIN, angle=0.0, **own))]
     fn new(
         sides: i64,
         radius: Real,
         center: Vec2Arg,
         angle: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let sides = convert::count("sides", sides)?;
         let def = ShapeDef::RegularPolygon { sides, radius, center: center.0, angle };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 
     /// Vertices (n, 2), counter-clockwise (m).
@@ -169,11 +170,11 @@ pub struct Polygon;
 #[pymethods]
 impl Polygon {
     #[new]
-    #[pyo3(signature = (vertices, *, holes=None, density=None))]
+    #[pyo3(signature = (vertices, *, holes=None, **own))]
     fn new(
         vertices: &Bound<'_, PyAny>,
         holes: Option<&Bound<'_, PyAny>>,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let mut rings = Vec::new();
         if let Some(holes) = holes {
@@ -183,7 +184,7 @@ impl Polygon {
         }
         let vertices = convert::vectors("vertices", vertices, None)?;
         let def = ShapeDef::Polygon { vertices, holes: rings, radius: 0.0 };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 
     /// Vertices (n, 2), cleaned, counter-clockwise (m).
@@ -210,11 +211,11 @@ pub struct RoundedPolygon;
 #[pymethods]
 impl RoundedPolygon {
     #[new]
-    #[pyo3(signature = (vertices, radius, *, density=None))]
+    #[pyo3(signature = (vertices, radius, **own))]
     fn new(
         vertices: &Bound<'_, PyAny>,
         radius: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         if radius == 0.0 {
             let message =
@@ -223,7 +224,7 @@ impl RoundedPolygon {
         }
         let vertices = convert::vectors("vertices", vertices, None)?;
         let def = ShapeDef::Polygon { vertices, holes: Vec::new(), radius };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 
     /// Vertices of the core (n, 2), cleaned, counter-clockwise (m).
@@ -245,15 +246,15 @@ pub struct Capsule;
 #[pymethods]
 impl Capsule {
     #[new]
-    #[pyo3(signature = (a, b, radius, *, density=None))]
+    #[pyo3(signature = (a, b, radius, **own))]
     fn new(
         a: Vec2Arg,
         b: Vec2Arg,
         radius: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let def = ShapeDef::Capsule { a: a.0, b: b.0, radius };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 }
 
@@ -273,9 +274,13 @@ pub struct Segment;
 #[pymethods]
 impl Segment {
     #[new]
-    #[pyo3(signature = (a, b, *, density=None))]
-    fn new(a: Vec2Arg, b: Vec2Arg, density: Option<Real>) -> PyResult<PyClassInitializer<Self>> {
-        Ok(checked(ShapeDef::Segment { a: a.0, b: b.0 }, density)?.add_subclass(Self))
+    #[pyo3(signature = (a, b, **own))]
+    fn new(
+        a: Vec2Arg,
+        b: Vec2Arg,
+        own: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        Ok(checked(ShapeDef::Segment { a: a.0, b: b.0 }, own)?.add_subclass(Self))
     }
 }
 
@@ -294,16 +299,16 @@ pub struct Arc;
 #[pymethods]
 impl Arc {
     #[new]
-    #[pyo3(signature = (center, radius, start, sweep, *, density=None))]
+    #[pyo3(signature = (center, radius, start, sweep, **own))]
     fn new(
         center: Vec2Arg,
         radius: Real,
         start: Real,
         sweep: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let def = ShapeDef::Arc { center: center.0, radius, start, sweep };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 }
 
