@@ -33,6 +33,7 @@ __all__ = [
     "Body",
     "Box",
     "Capsule",
+    "Chain",
     "Central",
     "Circle",
     "Energy",
@@ -429,6 +430,34 @@ class Arc(Shape):
     @property
     def sweep(self) -> float:
         """Angle from its first point to its last (rad), counter-clockwise above 0."""
+
+@final
+class Chain(Shape):
+    """Thin straight wires through points (n, 2), one after another.
+
+    Their density is per length (kg/m). What slides along them does not catch on the points between.
+    With `closed`, a last one leads from the last point to the first. With `one_sided`, only the
+    left side (from each point towards the next) is solid: ground drawn from left to right carries
+    what is above it and lets through what comes from below.
+    """
+
+    def __new__(
+        cls,
+        points: ArrayLike,
+        *,
+        closed: bool = False,
+        one_sided: bool = False,
+        **own: Unpack[_Own],
+    ) -> Chain: ...
+    @property
+    def points(self) -> _Array:
+        """The points (n, 2) (m)."""
+    @property
+    def closed(self) -> bool:
+        """Whether the last point is joined to the first."""
+    @property
+    def one_sided(self) -> bool:
+        """Whether only the left side is solid."""
 
 @final
 class MassProperties:

@@ -60,7 +60,7 @@ mod culbuto_native {
     use crate::shape::{MassProperties, Shape};
     #[pymodule_export]
     use crate::shapes::{
-        Arc, Capsule, Circle, Polygon, Rectangle, RegularPolygon, RoundedPolygon, Segment,
+        Arc, Capsule, Chain, Circle, Polygon, Rectangle, RegularPolygon, RoundedPolygon, Segment,
     };
     #[pymodule_export]
     use crate::snapshot::Snapshot;

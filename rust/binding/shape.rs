@@ -246,6 +246,14 @@ fn arguments<'py>(
         ShapeDef::Arc { center, radius, start, sweep } => {
             (pair(center), *radius, *start, *sweep).into_pyobject(py)?
         }
+        ShapeDef::Chain { points, closed, one_sided } => {
+            for (name, flag) in [("closed", closed), ("one_sided", one_sided)] {
+                if *flag {
+                    named.set_item(name, true)?;
+                }
+            }
+            (pairs(points),).into_pyobject(py)?
+        }
     };
     keywords(shape.get(), &named)?;
     Ok((arguments, named))
@@ -269,6 +277,10 @@ fn numbers(def: &ShapeDef) -> Vec<Real> {
         ShapeDef::Segment { a, b } => vec![a.x, a.y, b.x, b.y],
         ShapeDef::Arc { center, radius, start, sweep } => {
             vec![center.x, center.y, *radius, *start, *sweep]
+        }
+        ShapeDef::Chain { points, closed, one_sided } => {
+            let flags = [closed, one_sided].map(|&flag| Real::from(u8::from(flag)));
+            points.iter().flat_map(|p| [p.x, p.y]).chain(flags).collect()
         }
     }
 }

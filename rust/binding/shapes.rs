@@ -32,6 +32,7 @@ pub fn to_python(py: Python<'_>, part: Part) -> PyResult<Bound<'_, PyAny>> {
         ShapeDef::Capsule { .. } => Bound::new(py, base.add_subclass(Capsule))?.into_any(),
         ShapeDef::Segment { .. } => Bound::new(py, base.add_subclass(Segment))?.into_any(),
         ShapeDef::Arc { .. } => Bound::new(py, base.add_subclass(Arc))?.into_any(),
+        ShapeDef::Chain { .. } => Bound::new(py, base.add_subclass(Chain))?.into_any(),
     })
 }
 
@@ -323,6 +324,38 @@ fields! { Arc: Arc {
     sweep: Real = number,
 } }
 
+/// Thin straight wires through points, one after another; their density is per length (kg/m).
+#[pyclass(frozen, extends = Shape, module = "culbuto")]
+pub struct Chain;
+
+#[pymethods]
+impl Chain {
+    #[new]
+    #[pyo3(signature = (points, *, closed=false, one_sided=false, **own))]
+    fn new(
+        points: &Bound<'_, PyAny>,
+        closed: bool,
+        one_sided: bool,
+        own: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let points = convert::vectors("points", points, None)?;
+        Ok(checked(ShapeDef::Chain { points, closed, one_sided }, own)?.add_subclass(Self))
+    }
+
+    /// The points (n, 2) (m).
+    #[getter]
+    fn points(slf: PyRef<'_, Self>) -> PyResult<Bound<'_, PyArray2<Real>>> {
+        outline_of(slf.py(), slf.as_super())
+    }
+}
+
+fields! { Chain: Chain {
+    /// Whether the last point is joined to the first.
+    closed: bool = bool::clone,
+    /// Whether only the left side is solid.
+    one_sided: bool = bool::clone,
+} }
+
 /// Corners of a shape that is its own only convex piece.
 fn corners<'py>(py: Python<'py>, shape: &Shape) -> PyResult<Bound<'py, PyArray2<Real>>> {
     rows(py, shape.part.shape.convex_pieces().first().map_or(&[][..], |piece| piece))
@@ -331,6 +364,7 @@ fn corners<'py>(py: Python<'py>, shape: &Shape) -> PyResult<Bound<'py, PyArray2<
 fn outline_of<'py>(py: Python<'py>, shape: &Shape) -> PyResult<Bound<'py, PyArray2<Real>>> {
     match shape.part.shape.def() {
         ShapeDef::Polygon { vertices, .. } => rows(py, vertices),
+        ShapeDef::Chain { points, .. } => rows(py, points),
         _ => rows(py, &[]),
     }
 }

@@ -105,6 +105,7 @@ def test_every_shape_takes_the_keywords() -> None:
         cb.Capsule((0, 0), (1, 0), 0.1, friction=0.1),
         cb.Segment((0, 0), (1, 0), friction=0.1),
         cb.Arc((0, 0), 1, 0, 1, friction=0.1),
+        cb.Chain(triangle, friction=0.1),
     ):
         assert shape.friction == (0.1, 0.1)
         assert eval(repr(shape), vars(cb)) == shape  # noqa: S307

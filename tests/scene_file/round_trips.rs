@@ -46,6 +46,11 @@ fn shapes() -> impl Strategy<Value = ShapeDef> {
         (vector(), length(), number(), 0.1..6.0).prop_map(|(center, radius, start, sweep)| {
             ShapeDef::Arc { center, radius, start, sweep }
         }),
+        (vector(), length(), any::<[bool; 2]>()).prop_map(|(a, s, [closed, one_sided])| {
+            let points =
+                [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0)].map(|(x, y)| a + s * vec2(x, y)).to_vec();
+            ShapeDef::Chain { points, closed, one_sided }
+        }),
     ]
 }
 
@@ -354,6 +359,25 @@ fn what_is_as_usual_is_not_written() {
         assert!(text.contains(&part), "{text}");
         assert!(text.contains(&format!(r#""mixing": {rows}"#)), "{text}");
         assert!(text.contains(r#""friction": {"static": 0.5, "kinetic": 0.4}"#), "{text}");
+    }
+}
+
+#[test]
+fn a_chain_is_written_with_the_flags_it_has() {
+    for (flags, written) in [
+        (r#", "closed": false, "one_sided": false"#, ""),
+        (r#", "one_sided": true, "closed": true"#, r#", "closed": true, "one_sided": true"#),
+    ] {
+        let chain = |flags: &str| {
+            format!(r#"{{"chain": {{"points": [[0.0, 0.0], [1.0, 0.5], [2.0, 0.0]]{flags}}}}}"#)
+        };
+        let json = format!(
+            r#"{{"culbuto": 1, "bodies": [{{"shapes": [{{"shape": {}}}]}}]}}"#,
+            chain(flags)
+        );
+        let text = SceneFile::from_json(&json).unwrap().to_json();
+        let dense = |text: &str| text.split_whitespace().collect::<String>();
+        assert!(dense(&text).contains(&dense(&chain(written))), "{text}");
     }
 }
 

@@ -5,9 +5,11 @@
 
 mod collider;
 mod manifold;
+mod narrow_phase;
 
-pub use collider::{Collider, Convex, Geometry, WireArc};
+pub use collider::{Collider, Cone, Convex, Geometry, Joins, WireArc, colliders};
 pub use manifold::{Anchor, Manifold, Normal};
+pub use narrow_phase::collide;
 
 use crate::math::{Pose, Rot, Vec2};
 
@@ -21,6 +23,9 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The outer frame itself.
+    pub const IDENTITY: Self = Self { position: Vec2::new(0.0, 0.0), rot: Rot::IDENTITY };
+
     /// The frame of a pose.
     #[must_use]
     pub fn of(pose: &Pose) -> Self {
@@ -37,6 +42,13 @@ impl Frame {
             sin: cos * self.rot.sin - sin * self.rot.cos,
         };
         Self { position: other.rot.apply_inverse(self.position - other.position), rot }
+    }
+
+    /// The outer frame seen from this one.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let rot = Rot { cos: self.rot.cos, sin: -self.rot.sin };
+        Self { position: rot.apply(-self.position), rot }
     }
 
     /// A point of this frame in the outer one.
