@@ -15,6 +15,7 @@ mod drawing;
 mod error;
 mod field;
 mod law;
+mod mixing;
 mod observe;
 mod parts;
 mod record;
@@ -25,6 +26,7 @@ mod shapes;
 mod snapshot;
 mod stepper;
 mod stepping;
+mod surface;
 mod vec2;
 mod words;
 mod world;
@@ -46,6 +48,8 @@ mod culbuto_native {
     use crate::field::{Attraction, Central, Field, Oscillating};
     #[pymodule_export]
     use crate::law::State;
+    #[pymodule_export]
+    use crate::mixing::PairOfMaterials;
     #[pymodule_export]
     use crate::observe::{Energy, Facts, methods};
     #[pymodule_export]

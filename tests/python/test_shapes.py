@@ -25,6 +25,8 @@ SHAPES: list[cb.Shape] = [
     cb.Capsule((0, 0), (1, 0), 0.25),
     cb.Segment((0, 0), (3, 4), density=2),
     cb.Arc((0, 0), 1, 0, math.pi),
+    cb.Circle(0.5, friction=(0.7, 0.6), restitution=0, material="ice", mask=6, group=-1),
+    cb.Box(1, 2, density=1, friction=0.3, tangent_speed=-2, one_way=(0, 1)),
     cb.Chain([(0, 0), (1, 0), (2, 1)]),
     cb.Chain(TRIANGLE, closed=True, one_sided=True, density=2),
 ]

@@ -74,6 +74,16 @@ const BAD: &[(&str, &str, &str)] = &[
         "bodies[0].shapes[0].density",
         "0 or above",
     ),
+    (
+        r#""bodies": [{"shapes": [{"shape": {"chain": {"points": [[0, 0]]}}}]}]"#,
+        "bodies[0].shapes[0].shape",
+        "the number of points of the open chain is 1",
+    ),
+    (
+        r#""bodies": [{"shapes": [{"shape": {"chain": {"points": [[0, 0], [1, 0]], "closed": 1}}}]}]"#,
+        "bodies[0].shapes[0].shape.chain.closed",
+        "expected a boolean",
+    ),
     (r#""materials": {"ice": {"friction": -1}}"#, "materials.ice.friction", "0 or above"),
     (r#""bodies": [{"mass": 1, "friction": -1}]"#, "bodies[0].friction", "0 or above"),
     (r#""bodies": [{"mass": 1, "friction": "low"}]"#, "bodies[0].friction", "a number, or {"),

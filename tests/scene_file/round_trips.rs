@@ -363,6 +363,25 @@ fn what_is_as_usual_is_not_written() {
 }
 
 #[test]
+fn a_chain_is_written_with_the_flags_it_has() {
+    for (flags, written) in [
+        (r#", "closed": false, "one_sided": false"#, ""),
+        (r#", "one_sided": true, "closed": true"#, r#", "closed": true, "one_sided": true"#),
+    ] {
+        let chain = |flags: &str| {
+            format!(r#"{{"chain": {{"points": [[0.0, 0.0], [1.0, 0.5], [2.0, 0.0]]{flags}}}}}"#)
+        };
+        let json = format!(
+            r#"{{"culbuto": 1, "bodies": [{{"shapes": [{{"shape": {}}}]}}]}}"#,
+            chain(flags)
+        );
+        let text = SceneFile::from_json(&json).unwrap().to_json();
+        let dense = |text: &str| text.split_whitespace().collect::<String>();
+        assert!(dense(&text).contains(&dense(&chain(written))), "{text}");
+    }
+}
+
+#[test]
 fn equal_scenes_make_equal_worlds_and_equal_text() {
     let scene = SceneFile::from_json(r#"{"culbuto": 1, "bodies": [{"mass": 1}]}"#).unwrap();
     assert_eq!(bytes(&scene.world().unwrap()), bytes(&scene.clone().world().unwrap()));

@@ -126,7 +126,7 @@ fn leave_out_within(map: &mut Map<String, Value>, usual: &Map<String, Value>, ke
     }
 }
 
-/// In a shape, no turn, no offset, no hole and no rounding are the defaults.
+/// In a shape, no turn, no offset, no hole, no rounding and no flag are the defaults.
 fn leave_out_of_shape(part: &mut Map<String, Value>) {
     if let Some(Value::Object(filter)) = part.get_mut("filter") {
         filter.retain(|_, value| !value.is_null());
@@ -138,6 +138,7 @@ fn leave_out_of_shape(part: &mut Map<String, Value>) {
                 "center" => "[0.0, 0.0]",
                 "angle" | "radius" => "0.0",
                 "holes" => "[]",
+                "closed" | "one_sided" => "false",
                 _ => return true,
             };
             spaced(value) != usual
