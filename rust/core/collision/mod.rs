@@ -37,11 +37,7 @@ pub struct Frame {
 
 impl Frame {
     /// The outer frame itself.
-<<<<<<< HEAD
-    pub const IDENTITY: Self = Self { position: Vec2::new(0.0, 0.0), rot: Rot::IDENTITY };
-=======
     pub const IDENTITY: Self = Self { position: vec2(0.0, 0.0), rot: Rot::IDENTITY };
->>>>>>> broad
 
     /// The frame of a pose.
     #[must_use]
