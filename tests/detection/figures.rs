@@ -30,7 +30,7 @@ pub fn arc(center: Vec2, radius: Real, start: Real, sweep: Real) -> Geometry {
 }
 
 pub fn collider(geometry: Geometry) -> Collider {
-    let reach = outline(&geometry, 100).iter().map(|p| p.norm()).fold(0.0, Real::max);
+    let reach = outline(&geometry, 100).iter().map(Vec2::norm).fold(0.0, Real::max);
     Collider { body: 0, part: 0, geometry, width: reach, reach }
 }
 
