@@ -11,7 +11,7 @@ pub fn convex(vertices: Vec<Vec2>, radius: Real) -> Geometry {
     let outward = |(a, b): (&Vec2, &Vec2)| -perp(*b - *a).normalize();
     let edges = if vertices.len() == 1 { 0 } else { vertices.len() };
     let normals = vertices.iter().zip(next).map(outward).take(edges).collect();
-    Geometry::Convex(Convex { vertices: vertices.into(), normals, radius })
+    Geometry::Convex(Convex { vertices: vertices.into(), normals, radius, joins: None })
 }
 
 pub fn disk(center: Vec2, radius: Real) -> Geometry {
@@ -41,6 +41,7 @@ pub fn scaled(geometry: &Geometry, factor: Real) -> Geometry {
             vertices: core.vertices.iter().map(|v| v * factor).collect(),
             normals: core.normals.clone(),
             radius: core.radius * factor,
+            joins: None,
         }),
         Geometry::Arc(arc) => Geometry::Arc(WireArc {
             center: arc.center * factor,
