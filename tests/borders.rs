@@ -7,13 +7,14 @@ mod worlds;
 
 use std::fmt::Debug;
 
-use culbuto::body::{BodyKind, DragWidth, Locks};
+use culbuto::body::SurfaceOverride;
+use culbuto::body::{BodyKind, DragWidth, Filter, FilterOverride, Friction, Locks, Role, Surface};
 use culbuto::forces::{Air, Central, ForceSchedule, Oscillating};
 use culbuto::math::{Real, Vec2, Wrench, vec2};
 use culbuto::shapes::Shape;
 use culbuto::world::{Column, Snapshot, Stepper};
 use culbuto::{BodyDef, BodyHandle, Error, World};
-use worlds::{FailsAfter, Righting, bytes};
+use worlds::{FailsAfter, Righting, bits, bytes};
 
 const BAD: [Real; 3] = [Real::NAN, Real::INFINITY, Real::NEG_INFINITY];
 
@@ -88,6 +89,77 @@ fn definitions_with_bad_numbers_are_refused() {
     let locks = Locks { y: true, ..Locks::default() };
     refuses_def("that axis is locked", BodyDef { locks, velocity: vec2(1.0, 1.0), ..point() });
     refuses_def("is static", BodyDef { kind: BodyKind::Static, angular_velocity: 1.0, ..point() });
+}
+
+#[test]
+fn surfaces_that_are_not_allowed_are_refused() {
+    let disk = || BodyDef::new(Shape::circle(1.0).unwrap());
+    let friction = |sticking, sliding| Friction { sticking, sliding };
+    let with = |friction| Surface { friction, ..Surface::default() };
+    let bad = BAD.into_iter().chain([-1.0]);
+    let mut surfaces: Vec<(&str, Surface)> = bad
+        .flat_map(|x| {
+            [
+                ("friction is", with(Friction::of(x))),
+                ("static friction is", with(friction(x, 0.1))),
+                ("kinetic friction is", with(friction(1.0, x))),
+                ("restitution is", Surface { restitution: x, ..Surface::default() }),
+                ("rolling_resistance is", Surface { rolling_resistance: x, ..Surface::default() }),
+            ]
+        })
+        .collect();
+    surfaces.extend(
+        BAD.map(|x| ("tangent_speed is", Surface { tangent_speed: x, ..Surface::default() })),
+    );
+    surfaces.push(("kinetic friction is 0.3; allowed: 0 to", with(friction(0.2, 0.3))));
+    surfaces.push(("restitution is 1.01", Surface { restitution: 1.01, ..Surface::default() }));
+    for (words, surface) in surfaces {
+        let own = SurfaceOverride {
+            friction: Some(surface.friction),
+            restitution: Some(surface.restitution),
+            rolling_resistance: Some(surface.rolling_resistance),
+            tangent_speed: Some(surface.tangent_speed),
+            material: None,
+        };
+        refuses(words, |w, b| w.body_mut(b)?.set_surface(surface.clone()));
+        refuses(words, |w, b| w.body_mut(b)?.set_part_surface(0, own.clone()));
+        refuses_def(words, BodyDef { surface, ..disk() });
+        let mut def = disk();
+        def.shapes[0].surface = own;
+        refuses_def(words, def);
+    }
+    for side in bad_vectors().chain([vec2(0.0, 0.0)]) {
+        refuses_def("one_way is", BodyDef { role: Role::OneWay(side), ..disk() });
+        refuses("one_way is", |w, b| w.body_mut(b)?.set_part_role(0, Some(Role::OneWay(side))));
+    }
+    refuses("part is 1; allowed: a shape of the body, which has 1", |w, b| {
+        w.body_mut(b)?.set_part_filter(1, FilterOverride::default())
+    });
+}
+
+#[test]
+fn surfaces_are_changed_and_nothing_else_is() {
+    let (mut world, handle) = world();
+    let before = bits(&world);
+    let surface = Surface { restitution: 0.4, ..Surface::default() };
+    let own = SurfaceOverride { friction: Some(Friction::of(0.1)), ..SurfaceOverride::default() };
+    let group = FilterOverride { group: Some(-2), ..FilterOverride::default() };
+    let mut body = world.body_mut(handle).unwrap();
+    body.set_surface(surface.clone()).unwrap();
+    body.set_part_surface(0, own).unwrap();
+    body.set_filter(Filter { category: 8, mask: 1, group: 0 }).unwrap();
+    body.set_part_filter(0, group).unwrap();
+    body.set_role(Role::Sensor).unwrap();
+    body.set_part_role(0, None).unwrap();
+    let def = body.get().def();
+    let part = &def.shapes[0];
+    assert_eq!(def.surface_of(part), Surface { friction: Friction::of(0.1), ..surface });
+    assert_eq!(def.filter_of(part), Filter { category: 8, mask: 1, group: -2 });
+    assert_eq!(def.role_of(part), Role::Sensor);
+    body.set_part_role(0, Some(Role::Solid)).unwrap();
+    let def = body.get().def();
+    assert_eq!(def.role_of(&def.shapes[0]), Role::Solid);
+    assert_eq!(bits(&world), before);
 }
 
 #[test]

@@ -17,13 +17,15 @@ from typing import (
     SupportsFloat,
     SupportsIndex,
     TypeAlias,
+    TypedDict,
     final,
+    type_check_only,
 )
 
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, DTypeLike, NDArray
-from typing_extensions import disjoint_base
+from typing_extensions import Unpack, disjoint_base
 
 __all__ = [
     "Arc",
@@ -32,6 +34,7 @@ __all__ = [
     "Box",
     "Capsule",
     "Central",
+    "Chain",
     "Circle",
     "Energy",
     "Facts",
@@ -39,6 +42,7 @@ __all__ = [
     "Frame",
     "MassProperties",
     "Oscillating",
+    "PairOfMaterials",
     "Polygon",
     "RegularPolygon",
     "RoundedPolygon",
@@ -82,8 +86,40 @@ _Width: TypeAlias = Literal["silhouette", "bounding_box"] | float
 _Column: TypeAlias = Literal[
     "positions", "angles", "velocities", "angular_velocities", "forces", "torques"
 ]
+_Rule: TypeAlias = Literal[
+    "geometric_mean", "hypotenuse", "product", "minimum", "maximum", "average"
+]
+_ImpactLaw: TypeAlias = Literal["newton", "poisson", "stronge"]
+_Friction: TypeAlias = float | _Vec2Arg
 _Law: TypeAlias = Callable[[State], ArrayLike | tuple[ArrayLike, ArrayLike]]
 _Potential: TypeAlias = Callable[[State], float]
+
+@type_check_only
+class _Own(TypedDict, total=False):
+    """What a shape may have of its own; what is not given, or None, is the body's."""
+
+    density: float | None
+    """Mass per area (kg/m²), per length of a wire (kg/m)."""
+    friction: _Friction | None
+    """A number, or two: static and kinetic."""
+    restitution: float | None
+    """Speed after over speed before a collision, 0 to 1."""
+    rolling_resistance: float | None
+    """Arm by which the normal force opposes rolling (m)."""
+    tangent_speed: float | None
+    """Of the surface along its border, counter-clockwise (m/s)."""
+    material: str | None
+    """Name, for `World.set_pair`."""
+    category: int | None
+    """Bits of the categories it belongs to."""
+    mask: int | None
+    """Bits of the categories it touches."""
+    group: int | None
+    """Shapes of one group always touch if it is above 0, and never if it is below."""
+    sensor: bool | None
+    """It only notices what overlaps it."""
+    one_way: _Vec2Arg | None
+    """It stops only what comes from the side that this points to, in the body's frame."""
 
 class SceneFileError(ValueError): ...
 class SimulationError(RuntimeError): ...
@@ -132,12 +168,45 @@ class Vec2:
 class Shape:
     """Any shape: immutable, in the frame of the body it belongs to (lengths in m, angles in rad).
 
-    Shapes are values: equal if they have the same kind, numbers and density.
+    Shapes are values: equal if they have the same kind, numbers, density and surface. All take the
+    keywords `density`, `friction`, `restitution`, `rolling_resistance`, `tangent_speed`,
+    `material`, `category`, `mask`, `group`, `sensor` and `one_way`; what is not given is the
+    body's.
     """
 
     @property
     def density(self) -> float | None:
         """Mass per area (kg/m²), per length of a wire (kg/m); None: the body's."""
+    @property
+    def friction(self) -> tuple[float, float] | None:
+        """Static and kinetic friction; None: the body's."""
+    @property
+    def restitution(self) -> float | None:
+        """Speed after over speed before a collision, 0 to 1; None: the body's."""
+    @property
+    def rolling_resistance(self) -> float | None:
+        """Arm by which the normal force opposes rolling (m); None: the body's."""
+    @property
+    def tangent_speed(self) -> float | None:
+        """Speed of the surface along its border, counter-clockwise (m/s); None: the body's."""
+    @property
+    def material(self) -> str | None:
+        """Name of the material; None: the body's."""
+    @property
+    def category(self) -> int | None:
+        """Bits of the categories it belongs to; None: the body's."""
+    @property
+    def mask(self) -> int | None:
+        """Bits of the categories it touches; None: the body's."""
+    @property
+    def group(self) -> int | None:
+        """Group, 0 for none; None: the body's."""
+    @property
+    def sensor(self) -> bool | None:
+        """Whether it only notices what overlaps it; None: as the body."""
+    @property
+    def one_way(self) -> Vec2 | None:
+        """The side from which it stops what comes; None: all sides, or as the body."""
     @property
     def area(self) -> float:
         """Area (m²), 0 for wires."""
@@ -191,7 +260,7 @@ class Circle(Shape):
         radius: float,
         *,
         center: _Vec2Arg = ...,
-        density: float | None = None,
+        **own: Unpack[_Own],
     ) -> Circle: ...
     @property
     def radius(self) -> float:
@@ -211,7 +280,7 @@ class Box(Shape):
         *,
         center: _Vec2Arg = ...,
         angle: float = 0.0,
-        density: float | None = None,
+        **own: Unpack[_Own],
     ) -> Box: ...
     @property
     def width(self) -> float:
@@ -240,7 +309,7 @@ class RegularPolygon(Shape):
         *,
         center: _Vec2Arg = ...,
         angle: float = 0.0,
-        density: float | None = None,
+        **own: Unpack[_Own],
     ) -> RegularPolygon: ...
     @property
     def sides(self) -> int:
@@ -270,7 +339,7 @@ class Polygon(Shape):
         vertices: ArrayLike,
         *,
         holes: Iterable[ArrayLike] | None = None,
-        density: float | None = None,
+        **own: Unpack[_Own],
     ) -> Polygon: ...
     @property
     def vertices(self) -> _Array:
@@ -287,8 +356,7 @@ class RoundedPolygon(Shape):
         cls,
         vertices: ArrayLike,
         radius: float,
-        *,
-        density: float | None = None,
+        **own: Unpack[_Own],
     ) -> RoundedPolygon: ...
     @property
     def vertices(self) -> _Array:
@@ -306,8 +374,7 @@ class Capsule(Shape):
         a: _Vec2Arg,
         b: _Vec2Arg,
         radius: float,
-        *,
-        density: float | None = None,
+        **own: Unpack[_Own],
     ) -> Capsule: ...
     @property
     def a(self) -> Vec2:
@@ -323,7 +390,12 @@ class Capsule(Shape):
 class Segment(Shape):
     """A thin straight wire; its density is per length (kg/m)."""
 
-    def __new__(cls, a: _Vec2Arg, b: _Vec2Arg, *, density: float | None = None) -> Segment: ...
+    def __new__(
+        cls,
+        a: _Vec2Arg,
+        b: _Vec2Arg,
+        **own: Unpack[_Own],
+    ) -> Segment: ...
     @property
     def a(self) -> Vec2:
         """One end (m)."""
@@ -344,8 +416,7 @@ class Arc(Shape):
         radius: float,
         start: float,
         sweep: float,
-        *,
-        density: float | None = None,
+        **own: Unpack[_Own],
     ) -> Arc: ...
     @property
     def center(self) -> Vec2:
@@ -359,6 +430,34 @@ class Arc(Shape):
     @property
     def sweep(self) -> float:
         """Angle from its first point to its last (rad), counter-clockwise above 0."""
+
+@final
+class Chain(Shape):
+    """Thin straight wires through points (n, 2), one after another.
+
+    Their density is per length (kg/m). What slides along them does not catch on the points between.
+    With `closed`, a last one leads from the last point to the first. With `one_sided`, only the
+    left side (from each point towards the next) is solid: ground drawn from left to right carries
+    what is above it and lets through what comes from below.
+    """
+
+    def __new__(
+        cls,
+        points: ArrayLike,
+        *,
+        closed: bool = False,
+        one_sided: bool = False,
+        **own: Unpack[_Own],
+    ) -> Chain: ...
+    @property
+    def points(self) -> _Array:
+        """The points (n, 2) (m)."""
+    @property
+    def closed(self) -> bool:
+        """Whether the last point is joined to the first."""
+    @property
+    def one_sided(self) -> bool:
+        """Whether only the left side is solid."""
 
 @final
 class MassProperties:
@@ -379,6 +478,35 @@ class MassProperties:
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __reduce__(self) -> tuple[type[MassProperties], tuple[Any, ...]]: ...
+
+@final
+class PairOfMaterials:
+    """What is known of two materials together: a row of a world's table. Order does not matter."""
+
+    __match_args__: ClassVar[tuple[str, str, str, str]]
+
+    def __new__(
+        cls,
+        a: str,
+        b: str,
+        friction: tuple[float, float] | None,
+        restitution: float | None,
+    ) -> PairOfMaterials: ...
+    @property
+    def a(self) -> str:
+        """Name of the one."""
+    @property
+    def b(self) -> str:
+        """Name of the other."""
+    @property
+    def friction(self) -> tuple[float, float] | None:
+        """Static and kinetic friction; None: by the world's rule."""
+    @property
+    def restitution(self) -> float | None:
+        """Restitution; None: by the world's rule."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[PairOfMaterials], tuple[Any, ...]]: ...
 
 @final
 class Energy:
@@ -708,6 +836,65 @@ class Body:
     @drag_width.setter
     def drag_width(self, value: _Width, /) -> None: ...
     @property
+    def friction(self) -> tuple[float, float]:
+        """Static and kinetic friction of shapes that have none of their own.
+
+        May be set to one number for both.
+        """
+    @friction.setter
+    def friction(self, value: _Friction, /) -> None: ...
+    @property
+    def restitution(self) -> float:
+        """Speed after over speed before a collision, 0 to 1, of shapes without their own."""
+    @restitution.setter
+    def restitution(self, value: float, /) -> None: ...
+    @property
+    def rolling_resistance(self) -> float:
+        """Arm (m) by which the normal force opposes rolling, of shapes without their own."""
+    @rolling_resistance.setter
+    def rolling_resistance(self, value: float, /) -> None: ...
+    @property
+    def tangent_speed(self) -> float:
+        """Speed (m/s) of the surface along its border, counter-clockwise: a conveyor's belt."""
+    @tangent_speed.setter
+    def tangent_speed(self, value: float, /) -> None: ...
+    @property
+    def material(self) -> str | None:
+        """Name of the material of shapes without their own. `World.set_pair` speaks of it."""
+    @material.setter
+    def material(self, value: str | None, /) -> None: ...
+    @property
+    def category(self) -> int:
+        """Bits of the categories to which shapes belong that have none of their own."""
+    @category.setter
+    def category(self, value: int, /) -> None: ...
+    @property
+    def mask(self) -> int:
+        """Bits of the categories that shapes touch that have no mask of their own."""
+    @mask.setter
+    def mask(self, value: int, /) -> None: ...
+    @property
+    def group(self) -> int:
+        """Group of shapes that have none of their own, 0 for none.
+
+        Two shapes of one group always touch if it is above 0, and never if it is below.
+        """
+    @group.setter
+    def group(self, value: int, /) -> None: ...
+    @property
+    def sensor(self) -> bool:
+        """Whether shapes that have no role of their own only notice what overlaps them."""
+    @sensor.setter
+    def sensor(self, value: bool, /) -> None: ...
+    @property
+    def one_way(self) -> Vec2 | None:
+        """The side, in the body's frame, from which shapes stop what comes; None: all sides.
+
+        Of shapes that have no role of their own. What is set to stop is no sensor any more.
+        """
+    @one_way.setter
+    def one_way(self, value: _Vec2Arg | None, /) -> None: ...
+    @property
     def world(self) -> World:
         """The world it is, or was, in."""
     @property
@@ -941,6 +1128,10 @@ class World:
         method: str = "leapfrog",
         substeps: int = 4,
         closed_form: bool = True,
+        friction_rule: _Rule = ...,
+        restitution_rule: _Rule = ...,
+        impact_law: _ImpactLaw = ...,
+        sleeping: bool = False,
         timing: bool = False,
     ) -> World: ...
     @property
@@ -973,6 +1164,54 @@ class World:
         """Whether bodies under constant forces take the exact solution, whatever the method."""
     @closed_form.setter
     def closed_form(self, value: bool, /) -> None: ...
+    @property
+    def friction_rule(self) -> _Rule:
+        """How the friction of two surfaces becomes that of the pair.
+
+        "geometric_mean" √(ab), "hypotenuse" √(a² + b²), "product", "minimum", "maximum" or
+        "average".
+        """
+    @friction_rule.setter
+    def friction_rule(self, value: _Rule, /) -> None: ...
+    @property
+    def restitution_rule(self) -> _Rule:
+        """How the restitution of two surfaces becomes that of the pair, at most 1."""
+    @restitution_rule.setter
+    def restitution_rule(self, value: _Rule, /) -> None: ...
+    @property
+    def impact_law(self) -> _ImpactLaw:
+        """What restitution is a ratio of.
+
+        "newton" velocities, "poisson" impulses, "stronge" works (its square).
+        """
+    @impact_law.setter
+    def impact_law(self, value: _ImpactLaw, /) -> None: ...
+    @property
+    def sleeping(self) -> bool:
+        """Whether bodies that rest are left out of the work until something wakes them."""
+    @sleeping.setter
+    def sleeping(self, value: bool, /) -> None: ...
+    @property
+    def pairs(self) -> list[PairOfMaterials]:
+        """The pairs of materials that are known, in the order in which they were set."""
+    def set_pair(
+        self,
+        material_a: str,
+        material_b: str,
+        *,
+        friction: _Friction | None = None,
+        restitution: float | None = None,
+    ) -> None:
+        """Sets what two materials make together, instead of the rules.
+
+        Their order does not matter; a pair of which nothing is given is forgotten.
+
+        Args:
+            material_a: Name of the one, as bodies and shapes have it.
+            material_b: Name of the other; may be the same.
+            friction: A number, or two: static and kinetic. None: by the rule.
+            restitution: 0 to 1. None: by the rule.
+        """
     @property
     def timing(self) -> bool:
         """Whether each stage of a step is timed, for `report()` and `explain()`."""
@@ -1073,6 +1312,16 @@ class World:
         drag_width: _Width = ...,
         force: _Vec2Arg = ...,
         torque: float = 0.0,
+        friction: _Friction = ...,
+        restitution: float = 0.0,
+        rolling_resistance: float = 0.0,
+        tangent_speed: float = 0.0,
+        material: str | None = None,
+        category: int = 1,
+        mask: int = 4_294_967_295,
+        group: int = 0,
+        sensor: bool = False,
+        one_way: _Vec2Arg | None = None,
         name: str | None = None,
     ) -> Body:
         """Adds a body of a shape, of several (a compound) or of none (a point, with a mass).
@@ -1098,6 +1347,20 @@ class World:
             drag_width: A in it: "silhouette", "bounding_box", or a width (m).
             force: Constant, through the centre of mass (N).
             torque: Constant (N·m).
+            friction: A number, or two: static and kinetic; 0.5. This and what follows are of
+                shapes that have none of their own.
+            restitution: Speed after over speed before a collision, 0 to 1.
+            rolling_resistance: Arm by which the normal force opposes rolling (m).
+            tangent_speed: Of the surface along its border, counter-clockwise, as a conveyor's
+                belt (m/s).
+            material: Name, for `set_pair`.
+            category: Bits of the categories the shapes belong to.
+            mask: Bits of the categories they touch: each one's category must be in the other's
+                mask.
+            group: Shapes of one group always touch if it is above 0, and never if it is below.
+            sensor: They only notice what overlaps them.
+            one_way: They stop only what comes from the side that this points to, in the body's
+                frame.
             name: To find the body by.
 
         Raises:

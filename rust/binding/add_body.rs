@@ -1,20 +1,22 @@
 //! Adding a body, with everything it may be given.
 
 use culbuto::BodyDef;
-use culbuto::body::{BodyHandle, BodyKind, DragWidth, Locks};
+use culbuto::body::{BodyHandle, BodyKind, DragWidth, Filter, Friction, Locks, Surface};
 use culbuto::math::{Real, vec2};
 use pyo3::prelude::*;
 
 use crate::body::Body;
-use crate::convert::Vec2Arg;
+use crate::convert::{Vec2Arg, count};
 use crate::error::to_py;
 use crate::parts::Place;
 use crate::shape::parts;
+use crate::surface::{self, FrictionArg};
 use crate::words::{KindArg, WidthArg};
 use crate::world::World;
 
 const ZERO: Vec2Arg = Vec2Arg(vec2(0.0, 0.0));
 const DYNAMIC: KindArg = KindArg(BodyKind::Dynamic);
+const FRICTION: FrictionArg = FrictionArg(Friction::of(0.5));
 const SILHOUETTE: WidthArg = WidthArg(DragWidth::Silhouette);
 
 impl World {
@@ -45,11 +47,18 @@ impl World {
     /// is that of its centre of mass. `mass` (kg), `inertia` (kg·m², about the centre of mass) and
     /// `center_of_mass` (m, in the body's frame) stand instead of what follows from shapes and densities.
     /// `drag_width` is "silhouette", "bounding_box" or a width (m). `force` (N) and `torque` (N·m) are constant.
+    ///
+    /// What shapes do not have of their own: `friction` is a number or two, static and kinetic; `rolling_resistance`
+    /// an arm (m); `tangent_speed` that of a conveyor's belt (m/s). Two shapes touch if each one's `category` is in
+    /// the other's `mask`; those of one `group` always if it is above 0, never if it is below. A `sensor` only
+    /// notices; what is `one_way` stops only what comes from the side that vector points to, in the body's frame.
     #[pyo3(signature = (
         shape=None, *, kind=DYNAMIC, position=ZERO, angle=0.0, velocity=ZERO, angular_velocity=0.0,
         density=1.0, mass=None, inertia=None, center_of_mass=None, lock_x=false, lock_y=false,
         lock_rotation=false, gravity_scale=1.0, linear_damping=0.0, angular_damping=0.0,
-        drag_coefficient=0.4, drag_width=SILHOUETTE, force=ZERO, torque=0.0, name=None,
+        drag_coefficient=0.4, drag_width=SILHOUETTE, force=ZERO, torque=0.0, friction=FRICTION, restitution=0.0,
+        rolling_resistance=0.0, tangent_speed=0.0, material=None, category=1, mask=4_294_967_295, group=0,
+        sensor=false, one_way=None, name=None,
     ))]
     #[allow(clippy::too_many_arguments, reason = "one keyword each in Python")]
     fn add_body<'py>(
@@ -74,8 +83,26 @@ impl World {
         drag_width: WidthArg,
         force: Vec2Arg,
         torque: Real,
+        friction: FrictionArg,
+        restitution: Real,
+        rolling_resistance: Real,
+        tangent_speed: Real,
+        material: Option<String>,
+        category: i64,
+        mask: i64,
+        group: i64,
+        sensor: bool,
+        one_way: Option<Vec2Arg>,
         name: Option<String>,
     ) -> PyResult<Bound<'py, Body>> {
+        let friction = friction.0;
+        let surface =
+            Surface { friction, restitution, rolling_resistance, tangent_speed, material };
+        let filter = Filter {
+            category: count("category", category)?,
+            mask: count("mask", mask)?,
+            group: surface::group(group)?,
+        };
         let def = BodyDef {
             name,
             kind: kind.0,
@@ -94,6 +121,9 @@ impl World {
             angular_damping,
             drag_coefficient,
             drag_width: drag_width.0,
+            surface,
+            filter,
+            role: surface::role(Some(sensor), one_way)?.unwrap_or_default(),
             force: force.0,
             torque,
         };

@@ -15,6 +15,7 @@ mod drawing;
 mod error;
 mod field;
 mod law;
+mod mixing;
 mod observe;
 mod parts;
 mod record;
@@ -25,6 +26,7 @@ mod shapes;
 mod snapshot;
 mod stepper;
 mod stepping;
+mod surface;
 mod vec2;
 mod words;
 mod world;
@@ -47,6 +49,8 @@ mod culbuto_native {
     #[pymodule_export]
     use crate::law::State;
     #[pymodule_export]
+    use crate::mixing::PairOfMaterials;
+    #[pymodule_export]
     use crate::observe::{Energy, Facts, methods};
     #[pymodule_export]
     use crate::scene_file::{SceneFile, scene_schema};
@@ -56,7 +60,7 @@ mod culbuto_native {
     use crate::shape::{MassProperties, Shape};
     #[pymodule_export]
     use crate::shapes::{
-        Arc, Capsule, Circle, Polygon, Rectangle, RegularPolygon, RoundedPolygon, Segment,
+        Arc, Capsule, Chain, Circle, Polygon, Rectangle, RegularPolygon, RoundedPolygon, Segment,
     };
     #[pymodule_export]
     use crate::snapshot::Snapshot;

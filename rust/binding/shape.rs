@@ -13,6 +13,7 @@ use pyo3::types::{PyDict, PyTuple};
 use crate::convert::Vec2Arg;
 use crate::error::to_py;
 use crate::record::record;
+use crate::surface::{Own, keywords};
 use crate::vec2::Vec2;
 
 record! {
@@ -29,7 +30,9 @@ record! {
 
 /// Any shape: immutable, in the frame of the body it belongs to (lengths in m, angles in rad).
 ///
-/// Shapes are values: equal if they have the same kind, numbers and density.
+/// Shapes are values: equal if they have the same kind, numbers, density and surface. All take the keywords `density`,
+/// `friction`, `restitution`, `rolling_resistance`, `tangent_speed`, `material`, `category`, `mask`, `group`, `sensor`
+/// and `one_way`; what is not given is the body's.
 #[pyclass(frozen, subclass, module = "culbuto")]
 pub struct Shape {
     pub part: Part,
@@ -106,10 +109,7 @@ impl Shape {
 
     /// Mass, centre and inertia for a density in kg/m², or in kg/m for wires.
     fn mass_properties(&self, density: Real) -> PyResult<MassProperties> {
-        if !(density.is_finite() && density >= 0.0) {
-            let message = format!("density is {density}; allowed: a finite number, 0 or above");
-            return Err(PyValueError::new_err(message));
-        }
+        checked_density(density)?;
         let shapes::MassProperties { mass, center, inertia } =
             self.part.shape.mass_properties(density);
         Ok(MassProperties { mass, center: Vec2(center), inertia })
@@ -176,6 +176,15 @@ impl Shape {
     }
 }
 
+/// A density, 0 or above.
+pub fn checked_density(density: Real) -> PyResult<Real> {
+    if density.is_finite() && density >= 0.0 {
+        return Ok(density);
+    }
+    let message = format!("density is {density}; allowed: a finite number, 0 or above");
+    Err(PyValueError::new_err(message))
+}
+
 /// A direction as a unit vector.
 fn unit(direction: Vec2Arg) -> PyResult<math::Vec2> {
     let unit = direction.0.try_normalize(0.0).filter(|v| v.x.is_finite() && v.y.is_finite());
@@ -237,10 +246,16 @@ fn arguments<'py>(
         ShapeDef::Arc { center, radius, start, sweep } => {
             (pair(center), *radius, *start, *sweep).into_pyobject(py)?
         }
+        ShapeDef::Chain { points, closed, one_sided } => {
+            for (name, flag) in [("closed", closed), ("one_sided", one_sided)] {
+                if *flag {
+                    named.set_item(name, true)?;
+                }
+            }
+            (pairs(points),).into_pyobject(py)?
+        }
     };
-    if let Some(density) = part.density {
-        named.set_item("density", density)?;
-    }
+    keywords(shape.get(), &named)?;
     Ok((arguments, named))
 }
 
@@ -263,17 +278,21 @@ fn numbers(def: &ShapeDef) -> Vec<Real> {
         ShapeDef::Arc { center, radius, start, sweep } => {
             vec![center.x, center.y, *radius, *start, *sweep]
         }
+        ShapeDef::Chain { points, closed, one_sided } => {
+            let flags = [closed, one_sided].map(|&flag| Real::from(u8::from(flag)));
+            points.iter().flat_map(|p| [p.x, p.y]).chain(flags).collect()
+        }
     }
 }
 
-/// Checks a definition and the density that goes with it.
-pub fn checked(def: ShapeDef, density: Option<Real>) -> PyResult<PyClassInitializer<Shape>> {
-    if let Some(density) = density.filter(|d| !(d.is_finite() && *d >= 0.0)) {
-        let message = format!("density is {density}; allowed: a finite number, 0 or above");
-        return Err(PyValueError::new_err(message));
-    }
+/// Checks a definition and the keywords that go with it.
+pub fn checked(
+    def: ShapeDef,
+    own: Option<&Bound<'_, PyDict>>,
+) -> PyResult<PyClassInitializer<Shape>> {
+    let Own { density, surface, filter, role } = Own::read(own)?;
     let shape = CoreShape::new(def).map_err(to_py)?;
-    Ok(PyClassInitializer::from(Shape { part: Part { density, ..Part::from(shape) } }))
+    Ok(PyClassInitializer::from(Shape { part: Part { shape, density, surface, filter, role } }))
 }
 
 /// The shapes of a body as an argument: none, one, or a sequence of them.

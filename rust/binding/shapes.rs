@@ -7,6 +7,7 @@ use culbuto::shapes::ShapeDef;
 use numpy::PyArray2;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::convert::{self, Vec2Arg};
 use crate::shape::{Shape, checked, rows};
@@ -31,6 +32,7 @@ pub fn to_python(py: Python<'_>, part: Part) -> PyResult<Bound<'_, PyAny>> {
         ShapeDef::Capsule { .. } => Bound::new(py, base.add_subclass(Capsule))?.into_any(),
         ShapeDef::Segment { .. } => Bound::new(py, base.add_subclass(Segment))?.into_any(),
         ShapeDef::Arc { .. } => Bound::new(py, base.add_subclass(Arc))?.into_any(),
+        ShapeDef::Chain { .. } => Bound::new(py, base.add_subclass(Chain))?.into_any(),
     })
 }
 
@@ -69,14 +71,14 @@ pub struct Circle;
 #[pymethods]
 impl Circle {
     #[new]
-    #[pyo3(signature = (radius, *, center=ORIGIN, density=None))]
+    #[pyo3(signature = (radius, *, center=ORIGIN, **own))]
     fn new(
         radius: Real,
         center: Vec2Arg,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let def = ShapeDef::Circle { radius, center: center.0 };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 }
 
@@ -94,16 +96,16 @@ pub struct Rectangle;
 #[pymethods]
 impl Rectangle {
     #[new]
-    #[pyo3(signature = (width, height, *, center=ORIGIN, angle=0.0, density=None))]
+    #[pyo3(signature = (width, height, *, center=ORIGIN, angle=0.0, **own))]
     fn new(
         width: Real,
         height: Real,
         center: Vec2Arg,
         angle: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let def = ShapeDef::Box { width, height, center: center.0, angle };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 
     /// Corners (4, 2), counter-clockwise (m).
@@ -131,17 +133,17 @@ pub struct RegularPolygon;
 #[pymethods]
 impl RegularPolygon {
     #[new]
-    #[pyo3(signature = (sides, radius, *, center=ORIGIN, angle=0.0, density=None))]
+    #[pyo3(signature = (sides, radius, *, center=ORIGIN, angle=0.0, **own))]
     fn new(
         sides: i64,
         radius: Real,
         center: Vec2Arg,
         angle: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let sides = convert::count("sides", sides)?;
         let def = ShapeDef::RegularPolygon { sides, radius, center: center.0, angle };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 
     /// Vertices (n, 2), counter-clockwise (m).
@@ -169,11 +171,11 @@ pub struct Polygon;
 #[pymethods]
 impl Polygon {
     #[new]
-    #[pyo3(signature = (vertices, *, holes=None, density=None))]
+    #[pyo3(signature = (vertices, *, holes=None, **own))]
     fn new(
         vertices: &Bound<'_, PyAny>,
         holes: Option<&Bound<'_, PyAny>>,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let mut rings = Vec::new();
         if let Some(holes) = holes {
@@ -183,7 +185,7 @@ impl Polygon {
         }
         let vertices = convert::vectors("vertices", vertices, None)?;
         let def = ShapeDef::Polygon { vertices, holes: rings, radius: 0.0 };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 
     /// Vertices (n, 2), cleaned, counter-clockwise (m).
@@ -210,11 +212,11 @@ pub struct RoundedPolygon;
 #[pymethods]
 impl RoundedPolygon {
     #[new]
-    #[pyo3(signature = (vertices, radius, *, density=None))]
+    #[pyo3(signature = (vertices, radius, **own))]
     fn new(
         vertices: &Bound<'_, PyAny>,
         radius: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         if radius == 0.0 {
             let message =
@@ -223,7 +225,7 @@ impl RoundedPolygon {
         }
         let vertices = convert::vectors("vertices", vertices, None)?;
         let def = ShapeDef::Polygon { vertices, holes: Vec::new(), radius };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 
     /// Vertices of the core (n, 2), cleaned, counter-clockwise (m).
@@ -245,15 +247,15 @@ pub struct Capsule;
 #[pymethods]
 impl Capsule {
     #[new]
-    #[pyo3(signature = (a, b, radius, *, density=None))]
+    #[pyo3(signature = (a, b, radius, **own))]
     fn new(
         a: Vec2Arg,
         b: Vec2Arg,
         radius: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let def = ShapeDef::Capsule { a: a.0, b: b.0, radius };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 }
 
@@ -273,9 +275,13 @@ pub struct Segment;
 #[pymethods]
 impl Segment {
     #[new]
-    #[pyo3(signature = (a, b, *, density=None))]
-    fn new(a: Vec2Arg, b: Vec2Arg, density: Option<Real>) -> PyResult<PyClassInitializer<Self>> {
-        Ok(checked(ShapeDef::Segment { a: a.0, b: b.0 }, density)?.add_subclass(Self))
+    #[pyo3(signature = (a, b, **own))]
+    fn new(
+        a: Vec2Arg,
+        b: Vec2Arg,
+        own: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        Ok(checked(ShapeDef::Segment { a: a.0, b: b.0 }, own)?.add_subclass(Self))
     }
 }
 
@@ -294,16 +300,16 @@ pub struct Arc;
 #[pymethods]
 impl Arc {
     #[new]
-    #[pyo3(signature = (center, radius, start, sweep, *, density=None))]
+    #[pyo3(signature = (center, radius, start, sweep, **own))]
     fn new(
         center: Vec2Arg,
         radius: Real,
         start: Real,
         sweep: Real,
-        density: Option<Real>,
+        own: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<PyClassInitializer<Self>> {
         let def = ShapeDef::Arc { center: center.0, radius, start, sweep };
-        Ok(checked(def, density)?.add_subclass(Self))
+        Ok(checked(def, own)?.add_subclass(Self))
     }
 }
 
@@ -318,6 +324,38 @@ fields! { Arc: Arc {
     sweep: Real = number,
 } }
 
+/// Thin straight wires through points, one after another; their density is per length (kg/m).
+#[pyclass(frozen, extends = Shape, module = "culbuto")]
+pub struct Chain;
+
+#[pymethods]
+impl Chain {
+    #[new]
+    #[pyo3(signature = (points, *, closed=false, one_sided=false, **own))]
+    fn new(
+        points: &Bound<'_, PyAny>,
+        closed: bool,
+        one_sided: bool,
+        own: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<PyClassInitializer<Self>> {
+        let points = convert::vectors("points", points, None)?;
+        Ok(checked(ShapeDef::Chain { points, closed, one_sided }, own)?.add_subclass(Self))
+    }
+
+    /// The points (n, 2) (m).
+    #[getter]
+    fn points(slf: PyRef<'_, Self>) -> PyResult<Bound<'_, PyArray2<Real>>> {
+        outline_of(slf.py(), slf.as_super())
+    }
+}
+
+fields! { Chain: Chain {
+    /// Whether the last point is joined to the first.
+    closed: bool = bool::clone,
+    /// Whether only the left side is solid.
+    one_sided: bool = bool::clone,
+} }
+
 /// Corners of a shape that is its own only convex piece.
 fn corners<'py>(py: Python<'py>, shape: &Shape) -> PyResult<Bound<'py, PyArray2<Real>>> {
     rows(py, shape.part.shape.convex_pieces().first().map_or(&[][..], |piece| piece))
@@ -326,6 +364,7 @@ fn corners<'py>(py: Python<'py>, shape: &Shape) -> PyResult<Bound<'py, PyArray2<
 fn outline_of<'py>(py: Python<'py>, shape: &Shape) -> PyResult<Bound<'py, PyArray2<Real>>> {
     match shape.part.shape.def() {
         ShapeDef::Polygon { vertices, .. } => rows(py, vertices),
+        ShapeDef::Chain { points, .. } => rows(py, points),
         _ => rows(py, &[]),
     }
 }

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError, TryLockError};
 
 use culbuto::World as Core;
+use culbuto::body::{ImpactLaw, Mixing, Rule};
 use culbuto::math::{Real, vec2};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError};
 use pyo3::gc::{PyTraverseError, PyVisit};
@@ -15,6 +16,7 @@ use crate::body::Body;
 use crate::convert::{Vec2Arg, count};
 use crate::error::to_py;
 use crate::field::Field;
+use crate::mixing::{ImpactLawArg, RuleArg};
 use crate::parts::Made;
 use crate::schedule::Schedule;
 use crate::vec2::Vec2;
@@ -113,7 +115,7 @@ impl World {
     }
 
     /// Changes a setting.
-    fn set(
+    pub fn set(
         &self,
         py: Python<'_>,
         set: impl FnOnce(&mut Core) -> culbuto::error::Result<()>,
@@ -140,13 +142,17 @@ impl Drop for Working<'_> {
 
 const GRAVITY: Vec2Arg = Vec2Arg(vec2(0.0, -9.81));
 const STILL: Vec2Arg = Vec2Arg(vec2(0.0, 0.0));
+const GEOMETRIC_MEAN: RuleArg = RuleArg(Rule::GeometricMean);
+const MAXIMUM: RuleArg = RuleArg(Rule::Maximum);
+const NEWTON: ImpactLawArg = ImpactLawArg(ImpactLaw::Newton);
 
 #[pymethods]
 impl World {
     #[new]
     #[pyo3(signature = (
         gravity=GRAVITY, *, air_density=0.0, wind=STILL, method="leapfrog", substeps=4,
-        closed_form=true, timing=false,
+        closed_form=true, friction_rule=GEOMETRIC_MEAN, restitution_rule=MAXIMUM, impact_law=NEWTON,
+        sleeping=false, timing=false,
     ))]
     #[allow(clippy::too_many_arguments, reason = "one keyword each in Python")]
     fn new(
@@ -156,6 +162,10 @@ impl World {
         method: &str,
         substeps: i64,
         closed_form: bool,
+        friction_rule: RuleArg,
+        restitution_rule: RuleArg,
+        impact_law: ImpactLawArg,
+        sleeping: bool,
         timing: bool,
     ) -> PyResult<Self> {
         let make = || {
@@ -163,6 +173,10 @@ impl World {
             core.set_air(culbuto::forces::Air { density: air_density, wind: wind.0 })?;
             core.set_method(method)?;
             core.set_closed_form(closed_form);
+            let (friction, restitution) = (friction_rule.0, restitution_rule.0);
+            core.set_mixing(Mixing { friction, restitution, ..Mixing::default() })?;
+            core.set_impact_law(impact_law.0);
+            core.set_sleeping(sleeping);
             core.set_timing(timing);
             Ok(core)
         };

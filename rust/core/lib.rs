@@ -37,14 +37,17 @@
 pub mod arena;
 pub mod body;
 pub mod collision;
+pub mod constraints;
 pub mod error;
 pub mod forces;
+pub mod islands;
 pub mod math;
 pub mod methods;
 pub mod observe;
 pub mod report;
 pub mod scenes;
 pub mod shapes;
+pub mod solvers;
 pub mod world;
 
 pub use body::{BodyDef, BodyHandle, BodyKind, Part};

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::body::Mass;
 use crate::error::{Error, Result};
-use crate::forces::{BodyColumns, ForceField};
+use crate::forces::{BodyColumns, ForceField, Ledger};
 use crate::math::{Pose, Real, Twist, Vec2, Wrench, cross, vec2};
 use crate::world::World;
 
@@ -17,8 +17,10 @@ pub struct Energy {
     pub potential: Real,
     /// Done on the bodies by forces without a potential, since the world was made.
     pub work: Real,
-    /// Taken by drag and damping, since the world was made.
+    /// Taken by drag, damping, friction and impacts, since the world was made.
     pub dissipated: Real,
+    /// Done where overlap was removed by moving bodies apart, since the world was made.
+    pub correction_work: Real,
 }
 
 impl Energy {
@@ -28,10 +30,10 @@ impl Energy {
         self.kinetic + self.potential
     }
 
-    /// What the laws say stays the same: total − work + dissipated.
+    /// What the laws say stays the same: total − work − correction_work + dissipated.
     #[must_use]
     pub fn balance(&self) -> Real {
-        self.total() - self.work + self.dissipated
+        self.total() - self.work - self.correction_work + self.dissipated
     }
 }
 
@@ -52,7 +54,8 @@ impl World {
             let own = field.potential(self.time(), &self.columns());
             potential += own.map_err(failed(field.as_ref()))?.unwrap_or(0.0);
         }
-        Ok(Energy { kinetic, potential, work: ledger.work, dissipated: ledger.dissipated })
+        let Ledger { work, dissipated, correction_work } = ledger;
+        Ok(Energy { kinetic, potential, work, dissipated, correction_work })
     }
 
     /// Σ mv over the dynamic bodies (kg·m/s).

@@ -20,6 +20,7 @@ fn a_shape_is_written_as_its_definition() {
         r#"{"capsule":{"a":[0,0],"b":[1,0],"radius":1}}"#,
         r#"{"segment":{"a":[0,0],"b":[1,0]}}"#,
         r#"{"arc":{"center":[0,0],"radius":1,"start":0,"sweep":1}}"#,
+        r#"{"chain":{"points":[[0,0],[1,0],[1,1]],"closed":true}}"#,
     ] {
         serde_json::from_str::<Shape>(text).unwrap();
     }
@@ -36,7 +37,9 @@ fn a_bad_definition_says_what_is_wrong() {
 #[test]
 fn the_schema_names_every_kind() {
     let schema = serde_json::to_string(&schemars::schema_for!(Shape)).unwrap();
-    for kind in ["circle", "box", "regular_polygon", "polygon", "capsule", "segment", "arc"] {
+    for kind in
+        ["circle", "box", "regular_polygon", "polygon", "capsule", "segment", "arc", "chain"]
+    {
         assert!(schema.contains(&format!("\"{kind}\"")), "{kind}");
     }
 }

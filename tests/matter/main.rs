@@ -5,6 +5,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
+mod chains;
 mod definitions;
 mod mass;
 mod pieces;

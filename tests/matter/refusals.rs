@@ -23,6 +23,22 @@ fn refused(vertices: &[(Real, Real)], needles: &[&str]) {
 }
 
 #[test]
+fn chains_without_links_are_refused() {
+    for (points, closed, needle) in [
+        (&[(0.0, 0.0)][..], false, "points of the open chain is 1; allowed: 2 or more"),
+        (&[(0.0, 0.0), (1.0, 0.0)], true, "points of the closed chain is 2; allowed: 3 or more"),
+        (&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)], false, "length of link 1–2 of the chain"),
+        (&[(0.0, 0.0), (1.0, 0.0), (0.0, 0.0)], true, "length of link 2–0 of the chain"),
+        (&[(0.0, 0.0), (1.0, Real::NAN)], false, "point 1 of the chain"),
+        (&[(1e9, 0.0), (1e9, 1e-7)], false, "well above rounding"),
+    ] {
+        let points: Vec<Vec2> = points.iter().map(|&(x, y)| vec2(x, y)).collect();
+        let message = Shape::chain(&points, closed).unwrap_err().to_string();
+        assert!(message.contains(needle), "{message:?} does not say {needle:?}");
+    }
+}
+
+#[test]
 fn outlines_that_make_no_sense_are_refused_with_their_vertices_named() {
     refused(&[(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)], &["edge 0–1 crosses edge 2–3"]);
     refused(&[(0.0, 0.0), (1.0, 0.0)], &["corners of the outline", "three or more"]);

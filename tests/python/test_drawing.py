@@ -23,6 +23,7 @@ def a_world() -> cb.World:
         cb.Capsule((0, 0), (1, 0), 0.2),
         cb.Segment((0, 0), (1, 1)),
         cb.Arc((0, 0), 1, 0, 2),
+        cb.Chain([(0, 0), (1, 0), (2, 1)]),
     ]
     for i, shape in enumerate(shapes):
         world.add_body(shape, position=(2.5 * i, 3), angle=0.3, velocity=(1, 2), name=f"<{i}>")

@@ -25,6 +25,10 @@ SHAPES: list[cb.Shape] = [
     cb.Capsule((0, 0), (1, 0), 0.25),
     cb.Segment((0, 0), (3, 4), density=2),
     cb.Arc((0, 0), 1, 0, math.pi),
+    cb.Circle(0.5, friction=(0.7, 0.6), restitution=0, material="ice", mask=6, group=-1),
+    cb.Box(1, 2, density=1, friction=0.3, tangent_speed=-2, one_way=(0, 1)),
+    cb.Chain([(0, 0), (1, 0), (2, 1)]),
+    cb.Chain(TRIANGLE, closed=True, one_sided=True, density=2),
 ]
 every = pytest.mark.parametrize("shape", SHAPES, ids=repr)
 
@@ -72,7 +76,7 @@ def test_mass_is_density_times_measure(shape: cb.Shape) -> None:
         getattr(shape.mass_properties(2), n) for n in ("mass", "center", "inertia")
     )
     assert (mass, center, inertia) == (2 * shape.measure, shape.centroid, 2 * shape.second_moment)
-    assert (shape.area == shape.measure) == (type(shape) not in {cb.Segment, cb.Arc})
+    assert (shape.area == shape.measure) == (type(shape) not in {cb.Segment, cb.Arc, cb.Chain})
     assert shape.perimeter > 0
 
 
@@ -91,6 +95,9 @@ def test_what_is_known() -> None:
     assert [len(ring) for ring in polygon.outline()] == [4, 4]  # closed
     arc = cb.Arc((1, 2), 3, 0.5, -1)
     assert (arc.center, arc.radius, arc.start, arc.sweep) == ((1, 2), 3, 0.5, -1)
+    chain = cb.Chain([(0, 0), (3, 4)], one_sided=True)
+    assert (chain.closed, chain.one_sided, chain.measure) == (False, True, 5)
+    np.testing.assert_array_equal(chain.points, [(0, 0), (3, 4)])
     segment = cb.Segment((0, 0), (3, 4))
     assert (segment.a, segment.b, segment.measure) == ((0, 0), (3, 4), 5)
     capsule = cb.Capsule((0, 0), (3, 4), 1)

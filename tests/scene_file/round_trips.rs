@@ -1,6 +1,9 @@
 //! World → file → world goes on bit for bit; file → world → file stays.
 
-use culbuto::body::{BodyKind, DragWidth, Locks};
+use culbuto::body::{
+    BodyKind, DragWidth, Filter, FilterOverride, Friction, ImpactLaw, Locks, Mixing,
+};
+use culbuto::body::{PairOfMaterials, Role, Rule, Surface, SurfaceOverride};
 use culbuto::forces::{Air, Attraction, Central, ForceSchedule, Oscillating};
 use culbuto::math::{Real, Vec2, Wrench, vec2};
 use culbuto::scenes::SceneFile;
@@ -43,15 +46,70 @@ fn shapes() -> impl Strategy<Value = ShapeDef> {
         (vector(), length(), number(), 0.1..6.0).prop_map(|(center, radius, start, sweep)| {
             ShapeDef::Arc { center, radius, start, sweep }
         }),
+        (vector(), length(), any::<[bool; 2]>()).prop_map(|(a, s, [closed, one_sided])| {
+            let points =
+                [(0.0, 0.0), (3.0, 0.0), (3.0, 1.0)].map(|(x, y)| a + s * vec2(x, y)).to_vec();
+            ShapeDef::Chain { points, closed, one_sided }
+        }),
     ]
+}
+
+fn name() -> impl Strategy<Value = Option<String>> {
+    prop::option::of(prop::sample::select(vec!["wood", "ice", "", "ü \"x\""]).prop_map(Into::into))
+}
+
+fn friction() -> impl Strategy<Value = Friction> {
+    (0.0..2.0, prop_oneof![Just(1.0), Just(0.0), 0.0..1.0])
+        .prop_map(|(sticking, share)| Friction { sticking, sliding: share * sticking })
+}
+
+fn surface_override() -> impl Strategy<Value = SurfaceOverride> {
+    let of = |range| prop::option::of(range);
+    (prop::option::of(friction()), of(0.0..1.0), of(0.0..1.0), of(-9.0..9.0), name()).prop_map(
+        |(friction, restitution, rolling_resistance, tangent_speed, material)| SurfaceOverride {
+            friction,
+            restitution,
+            rolling_resistance,
+            tangent_speed,
+            material,
+        },
+    )
+}
+
+fn filter_override() -> impl Strategy<Value = FilterOverride> {
+    any::<(Option<u32>, Option<u32>, Option<i32>)>()
+        .prop_map(|(category, mask, group)| FilterOverride { category, mask, group })
+}
+
+fn role() -> impl Strategy<Value = Role> {
+    let one_way = vector().prop_map(|side| Role::OneWay(side + vec2(0.0, 2e7)));
+    prop_oneof![2 => Just(Role::Solid), 1 => Just(Role::Sensor), 1 => one_way]
+}
+
+fn mixing() -> impl Strategy<Value = Mixing> {
+    let rule = || prop::sample::select(Rule::ALL.map(|(_, rule)| rule).to_vec());
+    let row = (name(), name(), prop::option::of(friction()), prop::option::of(0.0..1.0));
+    (rule(), rule(), prop::collection::vec(row, 0..4)).prop_map(|(friction, restitution, rows)| {
+        let mut mixing = Mixing { friction, restitution, ..Mixing::default() };
+        for (a, b, friction, restitution) in rows {
+            let (a, b) = (a.unwrap_or_default(), b.unwrap_or_default());
+            mixing.set_pair(PairOfMaterials { a, b, friction, restitution });
+        }
+        mixing
+    })
 }
 
 fn bodies() -> impl Strategy<Value = BodyDef> {
     let name = prop::option::of(prop::sample::select(vec!["a", "b", "c \"quoted\" ü"]));
     let kind = prop::sample::select(vec![BodyKind::Static, BodyKind::Kinematic, BodyKind::Dynamic]);
-    let part = (shapes(), prop::option::of(0.1..9.0)).prop_filter_map("shape", |(def, density)| {
-        Shape::new(def).ok().map(|shape| Part { shape, density })
-    });
+    let own = (surface_override(), filter_override(), prop::option::of(role()));
+    let part = (shapes(), prop::option::of(0.1..9.0), own).prop_filter_map(
+        "shape",
+        |(def, density, (surface, filter, role))| {
+            let shape = Shape::new(def).ok()?;
+            Some(Part { shape, density, surface, filter, role })
+        },
+    );
     let width = prop_oneof![
         Just(DragWidth::Silhouette),
         Just(DragWidth::BoundingBox),
@@ -62,8 +120,9 @@ fn bodies() -> impl Strategy<Value = BodyDef> {
     let locks = (any::<bool>(), any::<bool>(), any::<bool>());
     let resists = (0.0..2.0, 0.0..2.0, 0.0..2.0, width, -2.0..2.0);
     let shapes = prop::collection::vec(part, 0..4);
-    (name, kind, shapes, place, mass, locks, resists).prop_map(
-        |(name, kind, shapes, place, mass, locks, resists)| {
+    let touch = (surface_override(), filter_override(), role());
+    (name, kind, shapes, place, mass, locks, resists, touch).prop_map(
+        |(name, kind, shapes, place, mass, locks, resists, (surface, filter, role))| {
             let (x, y, rotation) = locks;
             let free = |lock: bool, v: Real| {
                 let dynamic = kind == BodyKind::Dynamic;
@@ -88,6 +147,9 @@ fn bodies() -> impl Strategy<Value = BodyDef> {
                 drag_coefficient: resists.2,
                 drag_width: resists.3,
                 gravity_scale: resists.4,
+                surface: surface.over(&Surface::default()),
+                filter: filter.over(&Filter::default()),
+                role,
                 ..BodyDef::default()
             }
         },
@@ -102,13 +164,18 @@ fn worlds() -> impl Strategy<Value = World> {
     let schedules = prop::collection::vec(schedule, 0..3);
     let fields = (any::<bool>(), any::<bool>(), any::<bool>());
     let run = (prop::collection::vec(1e-3..0.03, 0..8), -3.0..3.0);
-    (settings, prop::collection::vec(bodies(), 2..6), schedules, fields, run)
-        .prop_map(|(settings, bodies, schedules, fields, run)| {
+    let law = prop::sample::select(ImpactLaw::ALL.map(|(_, law)| law).to_vec());
+    let contacts = (mixing(), law, any::<bool>());
+    (settings, prop::collection::vec(bodies(), 2..6), schedules, fields, run, contacts)
+        .prop_map(|(settings, bodies, schedules, fields, run, (mixing, law, sleeping))| {
             let mut world = World::new(settings.3).unwrap();
             world.set_method(methods::REGISTRY[settings.0].facts().name).unwrap();
             world.set_substeps(settings.1).unwrap();
             world.set_closed_form(settings.2);
             world.set_air(Air { density: settings.4, wind: settings.5 }).unwrap();
+            world.set_mixing(mixing).unwrap();
+            world.set_impact_law(law);
+            world.set_sleeping(sleeping);
             world.set_time(run.1).unwrap();
             let handles: Vec<_> =
                 bodies.into_iter().map(|def| world.add_body(def).unwrap()).collect();
@@ -140,6 +207,18 @@ fn worlds() -> impl Strategy<Value = World> {
         .boxed()
 }
 
+/// How the shapes of a world touch, and what the world makes of it, as text with every digit.
+fn touch(world: &World) -> String {
+    let defs = world.bodies().infos.iter().map(|info| &info.def);
+    let parts = |def: &BodyDef| -> Vec<_> {
+        let part = |part: &Part| (part.surface.clone(), part.filter, part.role);
+        def.shapes.iter().map(part).collect()
+    };
+    let bodies: Vec<_> =
+        defs.map(|def| (parts(def), def.surface.clone(), def.filter, def.role)).collect();
+    format!("{bodies:?} {:?}", world.settings())
+}
+
 proptest! {
     #[test]
     fn a_world_goes_on_bit_for_bit_from_its_file(mut world in worlds()) {
@@ -149,6 +228,7 @@ proptest! {
         prop_assert_eq!(&read, &file, "{}", text);
         let mut again = read.world().unwrap();
         prop_assert_eq!(bits(&world), bits(&again), "{}", text);
+        prop_assert_eq!(touch(&world), touch(&again), "{}", text);
         for dt in [1.0 / 60.0, 0.004, 0.02] {
             let (one, other) = (world.step(dt), again.step(dt));
             prop_assert_eq!(one.is_ok(), other.is_ok());
@@ -196,9 +276,9 @@ fn a_body_far_from_its_frame_is_placed_by_its_centre_of_mass() {
 fn materials_give_shapes_their_density() {
     let disk = || Shape::circle(1.0).unwrap();
     let part = |material: Option<&str>, density| ScenePart {
-        shape: disk(),
         material: material.map(str::to_owned),
         density,
+        ..Part::from(disk()).into()
     };
     let json = r#"{"culbuto": 1, "materials": {"wood": {"density": 600}, "plain": {}}}"#;
     let mut scene = SceneFile::from_json(json).unwrap();
@@ -213,6 +293,91 @@ fn materials_give_shapes_their_density() {
         scene.bodies = vec![SceneBody { def, shapes: vec![part], center_at: None }];
         let world = scene.world().unwrap();
         assert_eq!(world.bodies().masses[0].mass, disk().area() * density);
+    }
+}
+
+#[test]
+fn a_shape_has_its_own_values_else_its_materials_else_its_bodys() {
+    let scene = SceneFile::from_json(
+        r#"{"culbuto": 1,
+        "materials": {"ice": {"friction": {"static": 0.1, "kinetic": 0.05}, "restitution": 0.3}, "plain": {}},
+        "bodies": [{
+            "mass": 1, "friction": 0.7, "restitution": 1, "rolling_resistance": 0.01, "material": "ice",
+            "filter": {"category": 4}, "role": "sensor",
+            "shapes": [
+                {"shape": {"circle": {"radius": 1}}},
+                {"shape": {"circle": {"radius": 1}}, "friction": 2},
+                {"shape": {"circle": {"radius": 1}}, "material": "plain", "tangent_speed": -3,
+                 "filter": {"mask": 6}, "role": {"one_way": [0, 1]}}
+            ]
+        }]}"#,
+    )
+    .unwrap();
+    let world = scene.world().unwrap();
+    let def = &world.bodies().infos[0].def;
+    let own = |k: usize| def.surface_of(&def.shapes[k]);
+    let ice = Surface {
+        friction: Friction { sticking: 0.1, sliding: 0.05 },
+        restitution: 0.3,
+        rolling_resistance: 0.01,
+        tangent_speed: 0.0,
+        material: Some("ice".into()),
+    };
+    assert_eq!(own(0), ice);
+    assert_eq!(own(1), Surface { friction: Friction::of(2.0), ..ice });
+    let plain = Surface {
+        friction: Friction::of(0.7),
+        restitution: 1.0,
+        rolling_resistance: 0.01,
+        tangent_speed: -3.0,
+        material: Some("plain".into()),
+    };
+    assert_eq!(own(2), plain);
+    assert_eq!(def.filter_of(&def.shapes[0]), Filter { category: 4, ..Filter::default() });
+    assert_eq!(def.filter_of(&def.shapes[2]), Filter { category: 4, mask: 6, group: 0 });
+    assert_eq!(def.role_of(&def.shapes[0]), Role::Sensor);
+    assert_eq!(def.role_of(&def.shapes[2]), Role::OneWay(vec2(0.0, 1.0)));
+}
+
+#[test]
+fn what_is_as_usual_is_not_written() {
+    let shape = r#"{"shape": {"circle": {"radius": 1.0}}"#;
+    let plain = format!(r#"{{"culbuto": 1, "bodies": [{{"shapes": [{shape}}}]}}]}}"#);
+    let text = SceneFile::from_json(&plain).unwrap().to_json();
+    for key in ["friction", "filter", "role", "material", "mixing", "impact_law", "sleeping"] {
+        assert!(!text.contains(key), "{key}: {text}");
+    }
+    let part = format!(r#"{shape}, "friction": 0.5, "filter": {{"group": -1}}}}"#);
+    let rows = r#"{"friction": "product", "table": [{"a": "x", "b": "y", "restitution": 0.0}]}"#;
+    let some = format!(
+        r#"{{"culbuto": 1, "settings": {{"mixing": {rows}}}, "materials": {{"x": {{}}, "y": {{}}}},
+        "bodies": [{{"shapes": [{part}], "friction": {{"static": 0.5, "kinetic": 0.4}}}}]}}"#
+    );
+    let scene = SceneFile::from_json(&some).unwrap();
+    for text in [scene.to_json(), SceneFile::from_world(&scene.world().unwrap()).unwrap().to_json()]
+    {
+        assert!(text.contains(&part), "{text}");
+        assert!(text.contains(&format!(r#""mixing": {rows}"#)), "{text}");
+        assert!(text.contains(r#""friction": {"static": 0.5, "kinetic": 0.4}"#), "{text}");
+    }
+}
+
+#[test]
+fn a_chain_is_written_with_the_flags_it_has() {
+    for (flags, written) in [
+        (r#", "closed": false, "one_sided": false"#, ""),
+        (r#", "one_sided": true, "closed": true"#, r#", "closed": true, "one_sided": true"#),
+    ] {
+        let chain = |flags: &str| {
+            format!(r#"{{"chain": {{"points": [[0.0, 0.0], [1.0, 0.5], [2.0, 0.0]]{flags}}}}}"#)
+        };
+        let json = format!(
+            r#"{{"culbuto": 1, "bodies": [{{"shapes": [{{"shape": {}}}]}}]}}"#,
+            chain(flags)
+        );
+        let text = SceneFile::from_json(&json).unwrap().to_json();
+        let dense = |text: &str| text.split_whitespace().collect::<String>();
+        assert!(dense(&text).contains(&dense(&chain(written))), "{text}");
     }
 }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::{Filter, Mass, Role, Surface};
+use crate::body::{Filter, FilterOverride, Mass, Role, Surface, SurfaceOverride};
 use crate::error::{Error, Result, check};
 use crate::math::{Real, Vec2, vec2};
 use crate::shapes::{MassProperties, Shape};
@@ -48,7 +48,7 @@ pub enum DragWidth {
 }
 
 /// One shape of a body.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Part {
     /// The shape, in the body's frame.
@@ -56,20 +56,21 @@ pub struct Part {
     /// Density (kg/m², or kg/m of a wire); none: the body's.
     #[serde(default)]
     pub density: Option<Real>,
-    /// Friction, restitution and the like; none: the body's.
+    /// Friction, restitution and the like; what is not there: the body's.
     #[serde(default)]
-    pub surface: Option<Surface>,
-    /// What it can touch; none: as the body's.
+    pub surface: SurfaceOverride,
+    /// What it can touch; what is not there: the body's.
     #[serde(default)]
-    pub filter: Option<Filter>,
-    /// Solid, a sensor, or a platform that is open from below.
+    pub filter: FilterOverride,
+    /// Solid, a sensor, or a platform that is open from one side; none: as the body.
     #[serde(default)]
-    pub role: Role,
+    pub role: Option<Role>,
 }
 
 impl From<Shape> for Part {
     fn from(shape: Shape) -> Self {
-        Self { shape, density: None, surface: None, filter: None, role: Role::Solid }
+        let (surface, filter) = (SurfaceOverride::default(), FilterOverride::default());
+        Self { shape, density: None, surface, filter, role: None }
     }
 }
 
@@ -98,6 +99,7 @@ pub struct BodyDef {
     /// Angular velocity (rad/s).
     pub angular_velocity: Real,
     /// The shapes, each with its density or the body's. None: a point.
+    #[schemars(skip)] // scene files have parts of their own
     pub shapes: Vec<Part>,
     /// Density of shapes that have none of their own (kg/m²; kg/m of a wire).
     pub density: Real,
@@ -122,9 +124,12 @@ pub struct BodyDef {
     /// A in ½ρCAv².
     pub drag_width: DragWidth,
     /// Friction, restitution and the like of shapes that have none of their own.
+    #[schemars(flatten)]
     pub surface: Surface,
     /// What shapes that have no filter of their own can touch.
     pub filter: Filter,
+    /// What shapes that have no role of their own are there for.
+    pub role: Role,
     /// A constant force through the centre of mass (N), until changed.
     #[schemars(with = "[Real; 2]")]
     pub force: Vec2,
@@ -154,6 +159,7 @@ impl Default for BodyDef {
             drag_width: DragWidth::Silhouette,
             surface: Surface::default(),
             filter: Filter::default(),
+            role: Role::Solid,
             force: vec2(0.0, 0.0),
             torque: 0.0,
         }
@@ -197,12 +203,10 @@ impl BodyDef {
             check::not_negative("drag_width", width)?;
         }
         self.surface.validated()?;
+        self.role.validated()?;
         for part in &self.shapes {
-            part.surface.as_ref().map_or(Ok(()), Surface::validated)?;
-            if let Role::OneWay(side) = part.role {
-                check::finite_vec("one_way", side)?;
-                check::positive("length of one_way", side.norm())?;
-            }
+            part.surface.validated()?;
+            part.role.unwrap_or_default().validated()?;
         }
         check::finite_vec("force", self.force)?;
         check::finite("torque", self.torque)?;
@@ -229,6 +233,24 @@ impl BodyDef {
             return Err(Error::invalid("angular_velocity", angular, why));
         }
         Ok(())
+    }
+
+    /// The surface of one of its shapes: the shape's own values, else the body's.
+    #[must_use]
+    pub fn surface_of(&self, part: &Part) -> Surface {
+        part.surface.over(&self.surface)
+    }
+
+    /// The filter of one of its shapes, likewise.
+    #[must_use]
+    pub fn filter_of(&self, part: &Part) -> Filter {
+        part.filter.over(&self.filter)
+    }
+
+    /// The role of one of its shapes, likewise.
+    #[must_use]
+    pub fn role_of(&self, part: &Part) -> Role {
+        part.role.unwrap_or(self.role)
     }
 
     pub(crate) fn is_dynamic(&self) -> bool {

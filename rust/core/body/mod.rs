@@ -5,11 +5,13 @@
 
 mod columns;
 mod def;
+mod mixing;
 mod surface;
 
 pub use columns::{Bodies, Info, Mass};
 pub use def::{BodyDef, BodyKind, DragWidth, Locks, Part};
-pub use surface::{Filter, Friction, Role, Surface};
+pub use mixing::{ImpactLaw, Mixing, PairOfMaterials, PairSurface, Rule};
+pub use surface::{Filter, FilterOverride, Friction, Role, Surface, SurfaceOverride};
 
 use crate::arena::{Handle, Named};
 

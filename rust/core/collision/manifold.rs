@@ -1,9 +1,11 @@
 //! Where two colliders touch or will soon: up to two points with one normal.
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::{Real, Vec2, vec2};
 
 /// How the normal of a manifold follows the two bodies as they move. It points from A to B.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Normal {
     /// Fixed in the frame of A: a face of A, and points of B above it.
     OnA(Vec2),
@@ -17,7 +19,7 @@ pub enum Normal {
 }
 
 /// A pair of points that may touch, one of each core.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Anchor {
     /// In the frame of A's centre of mass (m).
     pub on_a: Vec2,
@@ -31,7 +33,7 @@ pub struct Anchor {
 ///
 /// With a, b the anchors in world coordinates and n the normal, the surfaces touch at a + n·radius_a and
 /// b − n·radius_b, and the gap between them is n·(b − a) − radius_a − radius_b, whatever the kind of normal.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifold {
     /// The normal.
     pub normal: Normal,

@@ -3,13 +3,28 @@
 //! A shape of a body becomes one or more [`Collider`]s: convex cores grown by a radius, or arcs, in the
 //! frame of the body's centre of mass. Nothing here knows of mass, time or forces.
 
+mod broad_phase;
+mod cast;
 mod collider;
+mod core;
+mod distance;
+mod extent;
 mod manifold;
+mod narrow_phase;
+mod pairs;
+mod time_of_impact;
+mod tree;
 
-pub use collider::{Collider, Convex, Geometry, WireArc};
+pub use broad_phase::{BroadPhase, ProxyId, TreeQuality};
+pub use cast::{Hit, cast_ray, cast_shape};
+pub use collider::{Collider, Cone, Convex, Geometry, Joins, WireArc, colliders};
+pub use distance::{Closest, contains, distance, distance_to_point, overlap};
 pub use manifold::{Anchor, Manifold, Normal};
+pub use narrow_phase::collide;
+pub use pairs::PairMap;
+pub use time_of_impact::{Impact, Sweep, first_impact, time_of_impact};
 
-use crate::math::{Pose, Rot, Vec2};
+use crate::math::{Pose, Rot, Vec2, vec2};
 
 /// A frame in another: where its origin stands and how it is turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,6 +36,9 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// The outer frame itself.
+    pub const IDENTITY: Self = Self { position: vec2(0.0, 0.0), rot: Rot::IDENTITY };
+
     /// The frame of a pose.
     #[must_use]
     pub fn of(pose: &Pose) -> Self {
@@ -37,6 +55,13 @@ impl Frame {
             sin: cos * self.rot.sin - sin * self.rot.cos,
         };
         Self { position: other.rot.apply_inverse(self.position - other.position), rot }
+    }
+
+    /// The outer frame seen from this one.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let rot = Rot { cos: self.rot.cos, sin: -self.rot.sin };
+        Self { position: rot.apply(-self.position), rot }
     }
 
     /// A point of this frame in the outer one.

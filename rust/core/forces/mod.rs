@@ -24,8 +24,18 @@ use crate::shapes::Facet;
 pub struct Ledger {
     /// Done on bodies by forces that have no potential.
     pub work: Real,
-    /// Taken by drag and damping (negative where the wind gives more than it takes).
+    /// Taken by drag, damping, friction and impacts (negative where the wind gives more than it takes).
     pub dissipated: Real,
+    /// Done where overlap was removed by moving bodies, against the forces on them.
+    pub correction_work: Real,
+}
+
+impl std::ops::AddAssign for Ledger {
+    fn add_assign(&mut self, other: Self) {
+        self.work += other.work;
+        self.dissipated += other.dissipated;
+        self.correction_work += other.correction_work;
+    }
 }
 
 /// Columns that a force evaluation fills; kept between steps so that a warm step allocates nothing.
@@ -132,7 +142,7 @@ impl Forces<'_> {
                 dissipated -= power(&resisting, &twists[i], &self.masses[i]);
             }
         }
-        Ok(Ledger { work: self.working_power(twists), dissipated })
+        Ok(Ledger { work: self.working_power(twists), dissipated, ..Ledger::default() })
     }
 
     /// The facets that the bodies show to the air in a state; empty where nothing resists.
@@ -187,7 +197,7 @@ impl Forces<'_> {
 }
 
 /// F·v + τω over what the body is free to do.
-fn power(wrench: &Wrench, twist: &Twist, mass: &Mass) -> Real {
+pub(crate) fn power(wrench: &Wrench, twist: &Twist, mass: &Mass) -> Real {
     let free = |inverse: Real, x: Real| if inverse > 0.0 { x } else { 0.0 };
     free(mass.inverse.x, wrench.force.x * twist.linear.x)
         + free(mass.inverse.y, wrench.force.y * twist.linear.y)
@@ -215,6 +225,25 @@ fn add_field(
         *working += *own;
     }
     Ok(())
+}
+
+/// Whether drag or damping acts on a body.
+#[must_use]
+pub fn has_resistance(info: &Info, air: Air) -> bool {
+    drag::resists(info, air)
+}
+
+/// Moves a body for a time h by no force but the air's and damping, exactly.
+///
+/// # Errors
+/// A step back in time to where this drag has no state.
+pub fn drift_body(
+    mass: &Mass,
+    info: &Info,
+    air: Air,
+    motion: (Real, &mut Pose, &mut Twist),
+) -> Result<()> {
+    drag::drift(mass, info, air, motion)
 }
 
 /// Whether air or damping act on a body; the plan sorts bodies by it.

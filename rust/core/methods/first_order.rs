@@ -78,7 +78,7 @@ pub fn write(y: &[Real], motion: &mut Motion<'_>) {
     let (poses, twists) = split(y);
     motion.poses.copy_from_slice(poses);
     motion.twists.copy_from_slice(twists);
-    *motion.ledger = Ledger { work: y[y.len() - 2], dissipated: y[y.len() - 1] };
+    *motion.ledger = Ledger { work: y[y.len() - 2], dissipated: y[y.len() - 1], ..*motion.ledger };
 }
 
 fn slope(forces: &mut Forces<'_>, time: Real, y: &[Real], dy: &mut [Real]) -> Result<()> {

@@ -2,6 +2,7 @@
 //! [`REGISTRY`], from which names, documentation and the tests of order come.
 
 pub mod closed_form;
+pub mod contact_step;
 mod dop853;
 mod dop853_dense;
 mod dop853_table;

@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 
 pub use body::{SceneBody, ScenePart};
 
+use crate::body::{Friction, ImpactLaw, Mixing};
 use crate::error::{Error, Result};
 use crate::forces::{Air, Attraction, Central};
 use crate::math::{Real, Vec2, vec2};
@@ -86,13 +87,23 @@ pub struct SceneFile {
     pub fields: Vec<SceneField>,
 }
 
-/// What shapes can be made of.
+/// What shapes can be made of. A shape whose material, or whose body's, is this has its values, but for
+/// those it has of its own.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
     /// Density (kg/m², or kg/m of a wire); none: that of the body.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub density: Option<Real>,
+    /// Static and kinetic friction; none: that of the body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<Friction>,
+    /// Speed after over speed before a collision, 0 to 1; none: that of the body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<Real>,
+    /// Arm (m) by which the normal force opposes rolling; none: that of the body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rolling_resistance: Option<Real>,
 }
 
 /// How a world is stepped.
@@ -105,12 +116,30 @@ pub struct SceneSettings {
     pub substeps: u32,
     /// Bodies under constant forces take the exact solution, whatever the method.
     pub closed_form: bool,
+    /// What two surfaces make of their coefficients together.
+    pub mixing: Mixing,
+    /// What restitution is a ratio of.
+    pub impact_law: ImpactLaw,
+    /// Bodies that have come to rest are left out of the work until something wakes them.
+    pub sleeping: bool,
 }
 
 impl Default for SceneSettings {
     fn default() -> Self {
-        let Settings { method, substeps, closed_form, .. } = Settings::default();
-        Self { method, substeps, closed_form }
+        Self::from(&Settings::default())
+    }
+}
+
+impl From<&Settings> for SceneSettings {
+    fn from(settings: &Settings) -> Self {
+        Self {
+            method: settings.method.clone(),
+            substeps: settings.substeps,
+            closed_form: settings.closed_form,
+            mixing: settings.mixing.clone(),
+            impact_law: settings.impact_law,
+            sleeping: settings.sleeping,
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Intervals on a line and boxes along the axes.
 
+use serde::{Deserialize, Serialize};
+
 use crate::math::{Real, Vec2, vec2};
 
 /// A closed interval on a line (m).
@@ -52,7 +54,7 @@ impl Interval {
 }
 
 /// A box along the axes (m), borders included.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Aabb {
     /// Lower left corner.
     pub min: Vec2,
@@ -98,5 +100,30 @@ impl Aabb {
     #[must_use]
     pub fn contains(&self, p: Vec2) -> bool {
         self.min.x <= p.x && p.x <= self.max.x && self.min.y <= p.y && p.y <= self.max.y
+    }
+    /// Half the length of the border, width + height (m): in the plane, the chance that a line meets the box
+    /// goes with it.
+    #[must_use]
+    pub fn half_perimeter(&self) -> Real {
+        self.width() + self.height()
+    }
+
+    /// The box grown by `margin` on every side.
+    #[must_use]
+    pub fn grown(&self, margin: Real) -> Self {
+        let margin = vec2(margin, margin);
+        Self { min: self.min - margin, max: self.max + margin }
+    }
+
+    /// The box moved by `offset`.
+    #[must_use]
+    pub fn moved(&self, offset: Vec2) -> Self {
+        Self { min: self.min + offset, max: self.max + offset }
+    }
+
+    /// Whether `other` lies in the box.
+    #[must_use]
+    pub fn contains_box(&self, other: &Self) -> bool {
+        self.contains(other.min) && self.contains(other.max)
     }
 }

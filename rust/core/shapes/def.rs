@@ -6,10 +6,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::arc::WireArc;
-use super::geometry::Geometry;
+use super::geometry::{Geometry, Ring};
 use super::mass::{self, Measures};
 use super::predicates::{convex_hull, is_convex};
-use super::{limits, polygon, round};
+use super::{chain, limits, polygon, round};
 use crate::error::{Error, Result, check};
 use crate::math::{Real, Rot, Vec2, vec2};
 
@@ -103,6 +103,21 @@ pub enum ShapeDef {
         /// whole circle at ±2π.
         sweep: Real,
     },
+    /// Thin straight wires, one after another. What slides along them does not catch on the points
+    /// between.
+    Chain {
+        /// The points they join, two or more; a chain may cross itself.
+        #[schemars(with = "Vec<[Real; 2]>")]
+        points: Vec<Vec2>,
+        /// Whether a last wire leads from the last point to the first; three points or more then.
+        #[serde(default)]
+        closed: bool,
+        /// Whether only its left side, seen from each point towards the next, is solid: ground
+        /// drawn from left to right carries what is above it and lets through what comes from
+        /// below; a closed chain drawn counter-clockwise holds what is inside.
+        #[serde(default)]
+        one_sided: bool,
+    },
 }
 
 /// A definition made clean, with what follows from it.
@@ -149,6 +164,12 @@ impl ShapeDef {
                 (Geometry::Swept { core: vec![a, b], radius: 0.0 }, round::segment(a, b))
             }
             Self::Arc { center, radius, start, sweep } => wire_arc(center, radius, start, sweep)?,
+            Self::Chain { ref points, closed, .. } => {
+                let ring = Ring { points: points.clone(), closed };
+                chain::check(&ring)?;
+                let measures = chain::measures(&ring);
+                (Geometry::Chain { hull: convex_hull(points), ring }, measures)
+            }
         };
         Ok(Built { def: self, geometry, measures })
     }

@@ -26,6 +26,8 @@ pub(super) enum Geometry {
     Polygon { rings: Vec<Vec<Vec2>>, hull: Vec<Vec2> },
     /// A circular wire.
     Arc(WireArc),
+    /// Straight wires, and the hull that bounds them.
+    Chain { ring: Ring, hull: Vec<Vec2> },
 }
 
 impl Geometry {
@@ -33,14 +35,14 @@ impl Geometry {
         match self {
             Self::Swept { core, radius } => core.len() == 2 && *radius == 0.0,
             Self::Polygon { .. } => false,
-            Self::Arc(_) => true,
+            Self::Arc(_) | Self::Chain { .. } => true,
         }
     }
 
     pub fn projection(&self, direction: Vec2) -> Interval {
         match self {
             Self::Swept { core, radius } => Interval::of(core, direction).grown(*radius),
-            Self::Polygon { hull, .. } => Interval::of(hull, direction),
+            Self::Polygon { hull, .. } | Self::Chain { hull, .. } => Interval::of(hull, direction),
             Self::Arc(arc) => arc.span(direction).moved(arc.center.dot(&direction)),
         }
     }
@@ -58,7 +60,7 @@ impl Geometry {
                 places().any(|at| at == Place::Border)
                     || places().filter(|&at| at == Place::Inside).count() == 1
             }
-            Self::Arc(_) => false,
+            Self::Arc(_) | Self::Chain { .. } => false,
         }
     }
 
@@ -68,7 +70,7 @@ impl Geometry {
         };
         match self {
             Self::Swept { core, radius } => farthest(core) + radius,
-            Self::Polygon { hull, .. } => farthest(hull),
+            Self::Polygon { hull, .. } | Self::Chain { hull, .. } => farthest(hull),
             Self::Arc(arc) => arc.extent_from(center),
         }
     }

@@ -10,6 +10,7 @@
 
 mod arc;
 mod bounds;
+mod chain;
 mod crossing;
 mod decompose;
 mod def;
@@ -158,6 +159,15 @@ impl Shape {
     pub fn arc(center: Vec2, radius: Real, start: Real, sweep: Real) -> Result<Self> {
         Self::new(ShapeDef::Arc { center, radius, start, sweep })
     }
+
+    /// Thin straight wires through these points, both sides solid.
+    ///
+    /// # Errors
+    /// As [`Shape::new`], and for fewer than two points (three of a closed chain) and for two equal
+    /// ones in a row.
+    pub fn chain(points: &[Vec2], closed: bool) -> Result<Self> {
+        Self::new(ShapeDef::Chain { points: points.to_vec(), closed, one_sided: false })
+    }
 }
 
 /// Integrals.
@@ -168,7 +178,7 @@ impl Shape {
         &self.0.def
     }
 
-    /// Whether the shape is a thin wire: a segment or an arc.
+    /// Whether the shape is a thin wire: a segment, an arc or a chain.
     #[must_use]
     pub fn is_wire(&self) -> bool {
         self.0.geometry.is_wire()
@@ -288,12 +298,13 @@ impl Shape {
                 rings.iter().map(|ring| Ring { points: ring.clone(), closed: true }).collect()
             }
             Geometry::Arc(arc) => vec![arc.outline(max_angle)],
+            Geometry::Chain { ring, .. } => vec![ring.clone()],
         }
     }
 
-    /// Hull of the core, relative to `origin`, and the radius around it; computed from the
+    /// Hull of the core (the core itself where it is convex; of an arc its centre), relative to `origin`, and the radius around it; computed from the
     /// definition, so that boxes far from the origin keep their digits.
-    fn hull_about(&self, origin: Vec2) -> (Vec<Vec2>, Real) {
+    pub(crate) fn core_about(&self, origin: Vec2) -> (Vec<Vec2>, Real) {
         match (&self.0.def, &self.0.geometry) {
             (&ShapeDef::Box { width, height, center, angle }, _) => {
                 (def::corners_of_box(width, height, center - origin, angle), 0.0)
@@ -304,7 +315,9 @@ impl Shape {
             (_, Geometry::Swept { core, radius }) => {
                 (core.iter().map(|p| p - origin).collect(), *radius)
             }
-            (_, Geometry::Polygon { hull, .. }) => (hull.iter().map(|p| p - origin).collect(), 0.0),
+            (_, Geometry::Polygon { hull, .. } | Geometry::Chain { hull, .. }) => {
+                (hull.iter().map(|p| p - origin).collect(), 0.0)
+            }
             (_, Geometry::Arc(arc)) => (vec![arc.center - origin], arc.radius),
         }
     }

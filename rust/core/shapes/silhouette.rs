@@ -46,7 +46,7 @@ impl Silhouette {
         let origin = shapes.first().map_or(vec2(0.0, 0.0), |shape| shape.centroid());
         let (mut points, mut parts) = (Vec::new(), Vec::new());
         for shape in shapes {
-            let (hull, radius) = shape.hull_about(origin);
+            let (hull, radius) = shape.core_about(origin);
             let from = points.len();
             points.extend(hull);
             let arc = if let Geometry::Arc(arc) = shape.0.geometry { Some(arc) } else { None };

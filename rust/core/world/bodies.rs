@@ -1,7 +1,8 @@
 //! Adding, removing, reading and changing bodies.
 
 use crate::body::{Bodies, BodyDef, BodyHandle, BodyKind, DragWidth, Info, Locks, Mass, Part};
-use crate::error::{Result, check};
+use crate::body::{Filter, FilterOverride, Role, Surface, SurfaceOverride};
+use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Twist, Vec2, Wrench, cross, vec2};
 use crate::world::World;
 
@@ -12,13 +13,16 @@ impl World {
     /// [`crate::Error::Invalid`] names the number that is not allowed; the world stays as it was.
     pub fn add_body(&mut self, def: BodyDef) -> Result<BodyHandle> {
         let handle = self.state.bodies.insert(def)?;
+        self.state.contacts.add(&self.state.bodies);
         self.plan = None;
         Ok(handle)
     }
 
     /// Removes a body and the schedules on it. The last body takes its place in body order.
     pub fn remove_body(&mut self, body: BodyHandle) -> Result<()> {
+        let index = self.state.bodies.index(body)?;
         self.state.bodies.remove(body)?;
+        self.state.contacts.remove(index);
         self.state.schedules.retain(|schedule| schedule.body != body);
         self.plan = None;
         Ok(())
@@ -170,6 +174,7 @@ impl BodyMut<'_> {
         check::finite_vec("position", position)?;
         let (i, angle) = (self.index, self.get().angle());
         self.bodies().set_origin(i, Pose::new(position, angle));
+        self.world.state.contacts.touch(i);
         Ok(())
     }
 
@@ -178,6 +183,7 @@ impl BodyMut<'_> {
         check::finite_vec("center_at", center)?;
         let i = self.index;
         self.bodies().poses[i].position = center;
+        self.world.state.contacts.touch(i);
         Ok(())
     }
 
@@ -186,6 +192,7 @@ impl BodyMut<'_> {
         check::finite("angle", angle)?;
         let (i, position) = (self.index, self.get().position());
         self.bodies().set_origin(i, Pose::new(position, angle));
+        self.world.state.contacts.touch(i);
         Ok(())
     }
 
@@ -269,6 +276,7 @@ impl BodyMut<'_> {
     fn edit(&mut self, edit: impl FnOnce(&mut BodyDef)) -> Result<()> {
         let i = self.index;
         self.bodies().edit(i, edit)?;
+        self.world.state.contacts.replace(&self.world.state.bodies, i);
         self.world.plan = None;
         Ok(())
     }
@@ -322,6 +330,45 @@ impl BodyMut<'_> {
     /// Replaces the shapes. The frame stays.
     pub fn set_shapes(&mut self, shapes: Vec<Part>) -> Result<()> {
         self.edit(|def| def.shapes = shapes)
+    }
+
+    /// Sets friction, restitution and the like of shapes that have none of their own.
+    pub fn set_surface(&mut self, surface: Surface) -> Result<()> {
+        self.edit(|def| def.surface = surface)
+    }
+
+    /// Sets what shapes that have no filter of their own can touch.
+    pub fn set_filter(&mut self, filter: Filter) -> Result<()> {
+        self.edit(|def| def.filter = filter)
+    }
+
+    /// Sets what shapes that have no role of their own are there for.
+    pub fn set_role(&mut self, role: Role) -> Result<()> {
+        self.edit(|def| def.role = role)
+    }
+
+    /// Sets friction, restitution and the like of one shape, counted from 0.
+    pub fn set_part_surface(&mut self, part: usize, surface: SurfaceOverride) -> Result<()> {
+        self.edit_part(part, |part| part.surface = surface)
+    }
+
+    /// Sets what one shape, counted from 0, can touch.
+    pub fn set_part_filter(&mut self, part: usize, filter: FilterOverride) -> Result<()> {
+        self.edit_part(part, |part| part.filter = filter)
+    }
+
+    /// Sets what one shape, counted from 0, is there for; none: as the body.
+    pub fn set_part_role(&mut self, part: usize, role: Option<Role>) -> Result<()> {
+        self.edit_part(part, |part| part.role = role)
+    }
+
+    fn edit_part(&mut self, part: usize, edit: impl FnOnce(&mut Part)) -> Result<()> {
+        let shapes = self.get().info().def.shapes.len();
+        if part >= shapes {
+            let allowed = format!("a shape of the body, which has {shapes}, counted from 0");
+            return Err(Error::invalid("part", part, allowed));
+        }
+        self.edit(|def| edit(&mut def.shapes[part]))
     }
 
     /// Sets how many times gravity acts.

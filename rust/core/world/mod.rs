@@ -3,6 +3,7 @@
 mod advance;
 mod bodies;
 mod columns;
+mod contacts;
 mod plan;
 mod report;
 mod snapshot;
@@ -21,7 +22,7 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use crate::arena::{Arena, HandleMap};
-use crate::body::Bodies;
+use crate::body::{Bodies, ImpactLaw, Mixing};
 use crate::error::{Error, Result, check};
 use crate::forces::{Air, Field, FieldHandle, ForceBuffers, ForceField, ForceSchedule, Ledger};
 use crate::forces::{Schedule, ScheduleHandle};
@@ -41,6 +42,14 @@ pub struct Settings {
     pub substeps: u32,
     /// Bodies under constant forces take the exact solution, whatever the method.
     pub closed_form: bool,
+    /// What two surfaces make of their coefficients together.
+    pub mixing: Mixing,
+    /// What restitution is a ratio of.
+    pub impact_law: ImpactLaw,
+    /// Most sweeps over the rows of contacts a substep; fewer where they settle sooner.
+    pub sweeps: u32,
+    /// Bodies that have come to rest are left out of the work until something wakes them.
+    pub sleeping: bool,
     /// Each stage of a step is timed. Costs about as much as the step of one free body.
     pub timing: bool,
 }
@@ -53,6 +62,10 @@ impl Default for Settings {
             method: "leapfrog".into(),
             substeps: 4,
             closed_form: true,
+            mixing: Mixing::default(),
+            impact_law: ImpactLaw::Newton,
+            sweeps: 8,
+            sleeping: false,
             timing: false,
         }
     }
@@ -79,6 +92,7 @@ impl Clock {
 struct State {
     settings: Settings,
     bodies: Bodies,
+    contacts: contacts::Contacts,
     schedules: Arena<Schedule>,
     field_map: HandleMap<Field>,
     clock: Clock,
@@ -117,6 +131,7 @@ struct WorldScratch {
     steady: Vec<crate::math::Wrench>,
     forces: ForceBuffers,
     methods: Scratch,
+    contacts: contacts::ContactScratch,
 }
 
 impl Default for World {
@@ -205,6 +220,15 @@ impl World {
         Ok(())
     }
 
+    /// Most sweeps over the rows of contacts a substep (1 to 10 000).
+    pub fn set_sweeps(&mut self, sweeps: u32) -> Result<()> {
+        if !(1..=10_000).contains(&sweeps) {
+            return Err(Error::invalid("sweeps", sweeps, "1 to 10000"));
+        }
+        self.state.settings.sweeps = sweeps;
+        Ok(())
+    }
+
     /// Chooses the method of fixed steps by name; [`methods::REGISTRY`] lists them.
     pub fn set_method(&mut self, name: &str) -> Result<()> {
         self.method = methods::method(name)?;
@@ -226,6 +250,29 @@ impl World {
     /// Off, the method moves them too, with the errors it has: for teaching.
     pub fn set_closed_form(&mut self, on: bool) {
         self.state.settings.closed_form = on;
+        self.plan = None;
+    }
+
+    /// Sets what two surfaces make of their coefficients together.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] names the pair of materials that is not allowed.
+    pub fn set_mixing(&mut self, mixing: Mixing) -> Result<()> {
+        mixing.validated()?;
+        self.state.settings.mixing = mixing;
+        self.plan = None;
+        Ok(())
+    }
+
+    /// Chooses what restitution is a ratio of.
+    pub fn set_impact_law(&mut self, law: ImpactLaw) {
+        self.state.settings.impact_law = law;
+        self.plan = None;
+    }
+
+    /// Whether bodies that have come to rest are left out of the work until something wakes them.
+    pub fn set_sleeping(&mut self, on: bool) {
+        self.state.settings.sleeping = on;
         self.plan = None;
     }
 

@@ -4,10 +4,10 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
-use crate::body::{Bodies, BodyKind, Info};
+use crate::body::{BodyKind, Info};
 use crate::forces::has_drag;
 use crate::math::Wrench;
-use crate::world::{Settings, World};
+use crate::world::{State, World};
 
 /// How the bodies of a world move. Indices are places in body order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,10 +24,13 @@ pub struct Plan {
     pub(super) resistance: bool,
     /// Some body has a constant force.
     pub(super) forces: bool,
+    /// Bodies that move and have shapes, where there is anything they can meet.
+    pub(super) colliding: Vec<u32>,
 }
 
 impl Plan {
-    pub(super) fn new(bodies: &Bodies, settings: &Settings, fields: usize) -> Self {
+    pub(super) fn new(state: &State, fields: usize) -> Self {
+        let State { bodies, settings, contacts, .. } = state;
         let mut plan = Self {
             together: if fields > 0 { bodies.len() } else { 0 },
             forces: bodies.forces.iter().any(|wrench| *wrench != Wrench::ZERO),
@@ -45,6 +48,11 @@ impl Plan {
                 _ if constant => plan.closed.push(i),
                 _ => plan.single.push(i),
             }
+        }
+        if contacts.shaped() > 1 {
+            let moving =
+                (0..bodies.len()).filter(|i| bodies.infos[*i].def.kind != BodyKind::Static);
+            plan.colliding.extend(moving.filter(|i| contacts.has_shapes(*i)).map(|i| i as u32));
         }
         plan
     }
@@ -72,15 +80,15 @@ fn count(n: usize) -> String {
 impl World {
     pub(super) fn planned(&mut self) -> &Plan {
         let Self { plan, state, fields, .. } = self;
-        plan.get_or_insert_with(|| Plan::new(&state.bodies, &state.settings, fields.len()))
+        plan.get_or_insert_with(|| Plan::new(state, fields.len()))
     }
 
     /// The stages a step of this world runs, which bodies each moves and how, and the time of each in
     /// the last run, if `timing` is on. What is not listed is not run, and not paid for.
     #[must_use]
     pub fn explain(&self) -> String {
-        let (bodies, settings) = (&self.state.bodies, &self.state.settings);
-        let plan = Plan::new(bodies, settings, self.fields.len());
+        let settings = &self.state.settings;
+        let plan = Plan::new(&self.state, self.fields.len());
         let by_method =
             format!("{}, {} substeps a step", self.method.facts().name, settings.substeps);
         let mut text = String::from("a step:\n");
@@ -88,6 +96,18 @@ impl World {
             // OK because writing to a String cannot fail.
             let _ = writeln!(text, "  {stage:<8} {what}");
         };
+        if !plan.colliding.is_empty() {
+            let pairs = self.state.contacts.near.len();
+            let moving = count(plan.colliding.len());
+            line(
+                "detect",
+                &format!("{moving} that can meet others; {pairs} pairs near one another"),
+            );
+            line(
+                "islands",
+                "what touches moves together, by the contact step instead of the below",
+            );
+        }
         for (bodies, how) in [(&plan.closed, ""), (&plan.damped, " and damping")] {
             if !bodies.is_empty() {
                 let how = format!("closed form, exact at any step (constant forces{how})");
@@ -113,7 +133,9 @@ impl World {
             line("advance", "nothing moves");
         }
         line("report", "finite check, counters");
-        line("not run", "detection: nothing here can collide");
+        if plan.colliding.is_empty() {
+            line("not run", "detection: nothing here can collide");
+        }
         for stage in &self.report.stages {
             line("time", &format!("{:<8} {:.3e} s in the last run", stage.name, stage.seconds));
         }

@@ -27,6 +27,12 @@ pub struct StepReport {
     pub rejected: u64,
     /// Force evaluations, summed over the islands.
     pub evaluations: u64,
+    /// Sweeps over the rows of contacts, summed over islands and substeps.
+    pub sweeps: u64,
+    /// Impacts resolved.
+    pub impacts: u64,
+    /// Largest change of velocity in the last sweep of a substep (m/s): what the rows of contacts still lack.
+    pub residual: Real,
     /// Smallest step (s); infinite where only closed forms were needed.
     pub smallest_step: Real,
     /// Estimated relative error of the call; none where it was not asked for.
@@ -42,6 +48,9 @@ impl Default for StepReport {
             steps: 0,
             rejected: 0,
             evaluations: 0,
+            sweeps: 0,
+            impacts: 0,
+            residual: 0.0,
             smallest_step: Real::INFINITY,
             estimate: None,
             stages: Vec::new(),

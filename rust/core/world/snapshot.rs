@@ -27,7 +27,7 @@ struct Stored {
 }
 
 /// Changes with the layout of [`State`].
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 impl World {
     /// Keeps the world as it is.
@@ -127,6 +127,7 @@ impl Snapshot {
             }
         }
         stored.state.bodies.rebuild();
+        stored.state.contacts.rebuild();
         Ok(Self { state: stored.state, fields })
     }
 }
@@ -134,7 +135,7 @@ impl Snapshot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::BodyDef;
+    use crate::body::{BodyDef, Friction, Role};
     use crate::math::vec2;
     use crate::shapes::Shape;
 
@@ -144,7 +145,13 @@ mod tests {
         let ball = BodyDef::new(Shape::circle(1.0).unwrap());
         world.add_body(ball.clone()).unwrap();
         let named = BodyDef { name: Some("ball".into()), inertia: Some(2.0), ..ball };
-        world.add_body(BodyDef { velocity: vec2(1.0, 2.0), ..named }).unwrap();
+        let mut rough = BodyDef { velocity: vec2(1.0, 2.0), role: Role::Sensor, ..named };
+        rough.surface.friction = Friction { sticking: 0.7, sliding: 0.4 };
+        rough.shapes[0].surface.friction = Some(Friction::of(0.2));
+        rough.shapes[0].surface.material = Some("ice".into());
+        rough.shapes[0].filter.group = Some(-3);
+        rough.shapes[0].role = Some(Role::OneWay(vec2(0.0, 1.0)));
+        world.add_body(rough).unwrap();
         let bytes = world.snapshot().to_bytes().unwrap();
         let mut copy = Snapshot::from_bytes(&bytes, Vec::new()).unwrap().to_world();
         world.steps(0.1, 10).unwrap();

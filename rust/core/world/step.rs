@@ -63,6 +63,16 @@ impl World {
             world.planned();
             Ok(())
         })?;
+        if self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty()) {
+            self.stage("detect", |world| {
+                world.detect(dt);
+                Ok(())
+            })?;
+            self.stage("islands", |world| {
+                world.find_islands();
+                Ok(())
+            })?;
+        }
         self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
         self.stage("report", |world| world.finish(dt))
     }
@@ -155,9 +165,16 @@ impl World {
     fn advance_span(&mut self, span: Span) -> Result<()> {
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
-        let result = plan.runs().try_for_each(|run| self.advance_run(run, span, plan.resistance));
+        let result = plan.runs().try_for_each(|run| {
+            // What touches something is moved with it, below.
+            if self.scratch.contacts.moves(run.start) {
+                return Ok(());
+            }
+            self.advance_run(run, span, plan.resistance)
+        });
         self.plan = Some(plan);
-        result
+        result?;
+        self.advance_contacts(span)
     }
 
     /// Moves the bodies whose solution is known.
@@ -167,11 +184,12 @@ impl World {
         let Some(plan) = plan else { return };
         let steady = |i: usize| scratch.steady.get(i).copied().unwrap_or(Wrench::ZERO);
         let Bodies { poses, twists, masses, infos, .. } = bodies;
-        for &i in &plan.closed {
+        let alone = |i: &&usize| !scratch.contacts.moves(**i);
+        for &i in plan.closed.iter().filter(alone) {
             let force = Constant { mass: &masses[i], steady: steady(i), gravity: settings.gravity };
             force.advance(h, &mut poses[i], &mut twists[i], ledger);
         }
-        for &i in &plan.damped {
+        for &i in plan.damped.iter().filter(alone) {
             let force = Constant { mass: &masses[i], steady: steady(i), gravity: settings.gravity };
             let damping = Damping::of(&masses[i], &infos[i], settings.air);
             force.advance_damped(h, &damping, (&mut poses[i], &mut twists[i]), ledger);

@@ -1,10 +1,12 @@
 //! From a world to a scene file.
 
+use std::collections::BTreeMap;
+
 use super::{
-    BodyLabel, SceneBody, SceneField, SceneFile, SceneOscillating, SceneSchedule, SceneSettings,
-    wrong,
+    BodyLabel, Material, SceneBody, SceneField, SceneFile, SceneOscillating, SceneSchedule,
+    SceneSettings, wrong,
 };
-use crate::body::BodyHandle;
+use crate::body::{BodyHandle, Info};
 use crate::error::Result;
 use crate::forces::{BuiltInField, ForceField, Schedule};
 use crate::math::{Pose, Real, Vec2, Wrench};
@@ -30,13 +32,10 @@ impl SceneFile {
         Ok(Self {
             gravity: settings.gravity,
             air: settings.air,
-            settings: SceneSettings {
-                method: settings.method.clone(),
-                substeps: settings.substeps,
-                closed_form: settings.closed_form,
-            },
+            settings: SceneSettings::from(settings),
             time,
             time_remainder,
+            materials: materials(world),
             bodies: (0..bodies.len()).map(|i| body(world, i)).collect(),
             schedules: world
                 .schedules()
@@ -47,6 +46,18 @@ impl SceneFile {
             ..Self::default()
         })
     }
+}
+
+/// All materials by name. Their values stand with the shapes.
+fn materials(world: &World) -> BTreeMap<String, Material> {
+    let table = &world.settings().mixing.table;
+    let pairs = table.iter().flat_map(|pair| [Some(&pair.a), Some(&pair.b)]);
+    let bodies = world.bodies().infos.iter().flat_map(|Info { def, .. }| {
+        let parts = def.shapes.iter().map(|part| part.surface.material.as_ref());
+        parts.chain([def.surface.material.as_ref()])
+    });
+    let named = |name: &String| (name.clone(), Material::default());
+    pairs.chain(bodies).flatten().map(named).collect()
 }
 
 /// A body, by its frame if that gives the centre of mass back to the bit, else by its centre of mass.

@@ -4,8 +4,7 @@ use schemars::Schema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::{SCENE_VERSION, SceneFile, SceneOscillating, wrong};
-use crate::body::BodyDef;
+use super::{SCENE_VERSION, SceneBody, SceneFile, SceneOscillating, SceneSettings, wrong};
 use crate::error::{Error, Result};
 
 /// The schema, too, says which version there is.
@@ -58,19 +57,21 @@ fn describe(error: &serde_path_to_error::Error<serde_json::Error>) -> Error {
 pub fn to_json(scene: &SceneFile) -> String {
     let mut file = object(scene);
     let always = ["culbuto", "gravity", "run"];
-    leave_out(&mut file, &object(&SceneFile::default()), &always);
-    for key in ["air", "settings"] {
-        if let Some(Value::Object(own)) = file.get_mut(key) {
-            let usual = object(&SceneFile::default());
-            leave_out(own, usual[key].as_object().unwrap_or(&Map::new()), &[]);
+    let usual = object(&SceneFile::default());
+    leave_out(&mut file, &usual, &always);
+    leave_out_within(&mut file, &usual, &["air"]);
+    if let Some(Value::Object(settings)) = file.get_mut("settings") {
+        let usual = object(&SceneSettings::default());
+        leave_out(settings, &usual, &[]);
+        leave_out_within(settings, &usual, &["mixing"]);
+        if let Some(Value::Object(mixing)) = settings.get_mut("mixing") {
+            objects(mixing, "table").for_each(|pair| pair.retain(|_, value| !value.is_null()));
         }
     }
-    let usual = object(&BodyDef::default());
+    let usual = object(&SceneBody::default());
     for body in objects(&mut file, "bodies") {
         leave_out(body, &usual, &[]);
-        if let Some(Value::Object(locks)) = body.get_mut("locks") {
-            locks.retain(|_, locked| *locked == Value::Bool(true));
-        }
+        leave_out_within(body, &usual, &["locks", "filter"]);
         objects(body, "shapes").for_each(leave_out_of_shape);
     }
     for schedule in objects(&mut file, "schedules") {
@@ -114,8 +115,22 @@ fn leave_out(map: &mut Map<String, Value>, usual: &Map<String, Value>, always: &
     });
 }
 
-/// In a shape, no turn, no offset, no hole and no rounding are the defaults.
+/// Drops what is as usual in objects of an object's.
+fn leave_out_within(map: &mut Map<String, Value>, usual: &Map<String, Value>, keys: &[&str]) {
+    for key in keys {
+        if let (Some(Value::Object(own)), Some(Value::Object(usual))) =
+            (map.get_mut(*key), usual.get(*key))
+        {
+            leave_out(own, usual, &[]);
+        }
+    }
+}
+
+/// In a shape, no turn, no offset, no hole, no rounding and no flag are the defaults.
 fn leave_out_of_shape(part: &mut Map<String, Value>) {
+    if let Some(Value::Object(filter)) = part.get_mut("filter") {
+        filter.retain(|_, value| !value.is_null());
+    }
     let kinds = part.get_mut("shape").and_then(Value::as_object_mut);
     for shape in kinds.into_iter().flat_map(Map::values_mut).filter_map(Value::as_object_mut) {
         shape.retain(|key, value| {
@@ -123,6 +138,7 @@ fn leave_out_of_shape(part: &mut Map<String, Value>) {
                 "center" => "[0.0, 0.0]",
                 "angle" | "radius" => "0.0",
                 "holes" => "[]",
+                "closed" | "one_sided" => "false",
                 _ => return true,
             };
             spaced(value) != usual

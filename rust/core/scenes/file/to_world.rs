@@ -1,7 +1,8 @@
 //! From a scene file to a world.
 
-use super::{BodyLabel, SCENE_VERSION, SceneBody, SceneField, SceneFile, SceneSchedule, wrong};
-use crate::body::{BodyDef, BodyHandle, Part};
+use super::{BodyLabel, Material, SceneBody, SceneField, SceneFile, ScenePart, SceneSchedule};
+use super::{SCENE_VERSION, wrong};
+use crate::body::{BodyDef, BodyHandle, Part, SurfaceOverride};
 use crate::error::{Error, Result, check};
 use crate::forces::{BuiltInField, ForceSchedule, Oscillating};
 use crate::math::{Real, Vec2, Wrench};
@@ -45,13 +46,25 @@ impl SceneFile {
         world.set_method(&settings.method).map_err(at("settings"))?;
         world.set_substeps(settings.substeps).map_err(at("settings"))?;
         world.set_closed_form(settings.closed_form);
+        world.set_impact_law(settings.impact_law);
+        world.set_sleeping(settings.sleeping);
+        for (i, pair) in settings.mixing.table.iter().enumerate() {
+            let path = format!("settings.mixing.table[{i}]");
+            self.material(&pair.a, &format!("{path}.a"))?;
+            self.material(&pair.b, &format!("{path}.b"))?;
+        }
+        world.set_mixing(settings.mixing.clone()).map_err(at("settings.mixing"))?;
         world.set_clock(self.time, self.time_remainder).map_err(at("."))
     }
 
     fn check_what_no_world_knows(&self) -> Result<()> {
         for (name, material) in &self.materials {
-            let density = material.density.unwrap_or(0.0);
-            check::not_negative("density", density).map_err(at(&format!("materials.{name}")))?;
+            let &Material { density, friction, restitution, rolling_resistance } = material;
+            let surface =
+                SurfaceOverride { friction, restitution, rolling_resistance, ..Default::default() };
+            check::not_negative("density", density.unwrap_or(0.0))
+                .and_then(|_| surface.validated())
+                .map_err(at(&format!("materials.{name}")))?;
         }
         check::positive("dt", self.run.dt).map_err(at("run"))?;
         check::not_negative("duration", self.run.duration).map_err(at("run"))?;
@@ -70,28 +83,32 @@ impl SceneFile {
         Ok(handle)
     }
 
-    /// The shapes of a body with their densities looked up.
+    /// The shapes of a body with their materials looked up.
     fn parts(&self, body: &SceneBody, path: &str) -> Result<Vec<Part>> {
-        let part = |(j, part): (usize, &super::ScenePart)| {
+        let usual = body.def.surface.material.as_ref();
+        let usual =
+            usual.map(|name| self.material(name, &format!("{path}.material"))).transpose()?;
+        let part = |(j, part): (usize, &ScenePart)| {
             let path = format!("{path}.shapes[{j}]");
-            let material = part.material.as_deref().map(|name| self.density_of(name, &path));
-            let density = part.density.or(material.transpose()?.flatten());
-            density
-                .map_or(Ok(0.0), |density| check::not_negative("density", density))
+            let own = part.material.as_ref();
+            let own =
+                own.map(|name| self.material(name, &format!("{path}.material"))).transpose()?;
+            let made = part.part(own.or(usual));
+            check::not_negative("density", made.density.unwrap_or(0.0))
+                .and_then(|_| made.surface.validated())
+                .and_then(|()| made.role.unwrap_or_default().validated())
                 .map_err(at(&path))?;
-            Ok(Part { density, ..Part::from(part.shape.clone()) })
+            Ok(made)
         };
         body.shapes.iter().enumerate().map(part).collect()
     }
 
-    fn density_of(&self, name: &str, path: &str) -> Result<Option<Real>> {
-        let Some(material) = self.materials.get(name) else {
+    fn material(&self, name: &str, path: &str) -> Result<&Material> {
+        self.materials.get(name).ok_or_else(|| {
             let known: Vec<_> = self.materials.keys().map(|known| format!("{known:?}")).collect();
             let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
-            let message = format!("{name:?} is not in `materials`; there are: {known}");
-            return Err(wrong(format!("{path}.material"), message));
-        };
-        Ok(material.density)
+            wrong(path, format!("{name:?} is not in `materials`; there are: {known}"))
+        })
     }
 
     /// The body that a label means.

@@ -1,0 +1,221 @@
+//! Which boxes meet: the pairs of colliders that the narrow phase looks at.
+
+use serde::{Deserialize, Serialize};
+
+use super::tree::{BoxCast, Tree};
+use crate::math::{Real, Vec2};
+use crate::shapes::{Aabb, Interval};
+
+/// No free proxy.
+const NONE: u32 = u32::MAX;
+
+/// Names a box in a [`BroadPhase`]: small numbers, used again once the box is removed. For tables beside it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+pub struct ProxyId(pub u32);
+
+/// One box. A free place holds the number of the next free one in `leaf`.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+struct Proxy {
+    fat: Aabb,
+    leaf: u32,
+    /// Whether it is of those that move, which is also the number of its tree.
+    moving: bool,
+    /// Whether it is in the list of those that moved.
+    moved: bool,
+}
+
+/// Boxes along the axes, and which of them meet.
+///
+/// Every box is kept a margin larger than told ("fat"), so that most small motions change nothing. What moves
+/// and what stands still are in two trees, since what stands still is never looked at for its own sake. All
+/// answers come in an order that depends on the order of the calls alone.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct BroadPhase {
+    /// What stands still; what moves.
+    trees: [Tree; 2],
+    proxies: Vec<Proxy>,
+    free: u32,
+    moved: Vec<ProxyId>,
+    #[serde(skip)]
+    stack: Vec<u32>,
+}
+
+impl Default for BroadPhase {
+    fn default() -> Self {
+        Self {
+            trees: Default::default(),
+            proxies: Vec::new(),
+            free: NONE,
+            moved: Vec::new(),
+            stack: Vec::new(),
+        }
+    }
+}
+
+/// Keeping boxes.
+impl BroadPhase {
+    /// Adds a box, kept `margin` (m) larger on every side. It counts as moved.
+    pub fn insert(&mut self, tight: &Aabb, margin: Real, moving: bool) -> ProxyId {
+        let fat = tight.grown(margin);
+        let id = if self.free == NONE { self.proxies.len() as u32 } else { self.free };
+        let leaf = self.trees[usize::from(moving)].insert(fat, id);
+        if self.free == NONE {
+            self.proxies.push(Proxy { fat, leaf, moving, moved: false });
+        } else {
+            let proxy = &mut self.proxies[id as usize];
+            self.free = proxy.leaf;
+            *proxy = Proxy { fat, leaf, moving, moved: proxy.moved };
+        }
+        self.touch(ProxyId(id));
+        ProxyId(id)
+    }
+
+    /// Removes a box. The caller drops its pairs.
+    pub fn remove(&mut self, id: ProxyId) {
+        let Proxy { leaf, moving, moved, .. } = *self.proxy(id);
+        self.trees[usize::from(moving)].remove(leaf);
+        // If it moved it stays in the list, and meets nothing. (Infinities could not be serialised as text.)
+        let nothing = Interval { min: Real::MAX, max: Real::MIN };
+        let fat = Aabb::new(nothing, nothing);
+        self.proxies[id.0 as usize] = Proxy { fat, leaf: self.free, moving, moved };
+        self.free = id.0;
+    }
+
+    /// Tells where a box is now: the smallest box around a body, or around all of its way through a step.
+    /// Nothing happens while that lies in the fat box, unless the fat box is more than three margins too large
+    /// somewhere. Returns whether the fat box changed; then it counts as moved.
+    pub fn update(&mut self, id: ProxyId, tight: &Aabb, margin: Real) -> bool {
+        const LOOSEST: Real = 4.0;
+        let Proxy { fat, leaf, moving, .. } = *self.proxy(id);
+        if fat.contains_box(tight) && tight.grown(LOOSEST * margin).contains_box(&fat) {
+            return false;
+        }
+        let fat = tight.grown(margin);
+        self.trees[usize::from(moving)].replace(leaf, fat);
+        self.proxies[id.0 as usize].fat = fat;
+        self.touch(id);
+        true
+    }
+
+    /// Counts a box among those that move, or among those that stand still. If it changes sides it counts as
+    /// moved.
+    pub fn set_moving(&mut self, id: ProxyId, moving: bool) {
+        let Proxy { fat, leaf, moving: before, .. } = *self.proxy(id);
+        if moving == before {
+            return;
+        }
+        self.trees[usize::from(before)].remove(leaf);
+        let leaf = self.trees[usize::from(moving)].insert(fat, id.0);
+        let proxy = &mut self.proxies[id.0 as usize];
+        (proxy.leaf, proxy.moving) = (leaf, moving);
+        self.touch(id);
+    }
+
+    /// Makes a box count as moved, so that its pairs are found again: after its filter changed, say.
+    pub fn touch(&mut self, id: ProxyId) {
+        let proxy = &mut self.proxies[id.0 as usize];
+        if !proxy.moved {
+            proxy.moved = true;
+            self.moved.push(id);
+        }
+    }
+
+    fn proxy(&self, id: ProxyId) -> &Proxy {
+        &self.proxies[id.0 as usize]
+    }
+}
+
+/// Asking.
+impl BroadPhase {
+    /// Calls `found` with every pair of fat boxes that meet, of which at least one moved since the last call and
+    /// at least one is of those that move, and that `allow` allows. Each pair comes once, the smaller number
+    /// first; pairs that met before come again. The cost goes with what moved.
+    pub fn find_pairs(
+        &mut self,
+        mut allow: impl FnMut(ProxyId, ProxyId) -> bool,
+        mut found: impl FnMut(ProxyId, ProxyId),
+    ) {
+        let Self { trees, proxies, moved, stack, .. } = self;
+        for &id in &*moved {
+            let Proxy { fat, moving, .. } = proxies[id.0 as usize];
+            let mut see = |other: u32| {
+                // If both moved, the one with the smaller number finds the pair.
+                let twice = proxies[other as usize].moved && other <= id.0;
+                let pair = (id.min(ProxyId(other)), id.max(ProxyId(other)));
+                if !twice && allow(pair.0, pair.1) {
+                    found(pair.0, pair.1);
+                }
+                true
+            };
+            for tree in &trees[usize::from(!moving)..] {
+                tree.query(&fat, stack, &mut see);
+            }
+        }
+        for id in moved.drain(..) {
+            proxies[id.0 as usize].moved = false;
+        }
+    }
+
+    /// Whether two fat boxes meet: while they do, a pair is kept.
+    #[must_use]
+    pub fn overlaps(&self, a: ProxyId, b: ProxyId) -> bool {
+        self.proxy(a).fat.overlaps(&self.proxy(b).fat)
+    }
+
+    /// The fat box.
+    #[must_use]
+    pub fn fat_box(&self, id: ProxyId) -> &Aabb {
+        &self.proxy(id).fat
+    }
+
+    /// Whether the box is of those that move.
+    #[must_use]
+    pub fn is_moving(&self, id: ProxyId) -> bool {
+        self.proxy(id).moving
+    }
+
+    /// Calls `found` with every box that meets `aabb` (fat), until it says no.
+    pub fn query(&self, aabb: &Aabb, found: &mut dyn FnMut(ProxyId) -> bool) {
+        let mut stack = Vec::new();
+        let mut see = |item| found(ProxyId(item));
+        // Through the second only if nobody said no in the first.
+        let _ = self.trees.iter().all(|tree| tree.query(aabb, &mut stack, &mut see));
+    }
+
+    /// Moves a box (of half extents 0: a point) along a translation and calls `found` with those fat boxes that
+    /// it meets, and with the fraction of the translation up to which is looked. It returns the fraction up to
+    /// which to look from now on: that of a hit, or the one it was given; −1 ends the search. Nearer boxes tend
+    /// to come first.
+    pub fn cast(
+        &self,
+        (origin, half_extents): (Vec2, Vec2),
+        translation: Vec2,
+        found: &mut dyn FnMut(ProxyId, Real) -> Real,
+    ) {
+        let cast = BoxCast { origin, translation, half_extents };
+        let mut see = |item, limit| found(ProxyId(item), limit);
+        let _ = self.trees.iter().fold(1.0, |limit, tree| tree.cast(&cast, limit, &mut see));
+    }
+
+    /// How good the trees are.
+    #[must_use]
+    pub fn quality(&self) -> TreeQuality {
+        let [still, moving] = &self.trees;
+        TreeQuality {
+            cost: [still.cost(), moving.cost()],
+            height: [still.height(), moving.height()],
+            leaves: [still.check(), moving.check()],
+        }
+    }
+}
+
+/// How good the trees are, of what stands still and of what moves. For tests and tuning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TreeQuality {
+    /// Sum of width + height of all inner boxes (m).
+    pub cost: [Real; 2],
+    /// Number of levels.
+    pub height: [usize; 2],
+    /// Number of boxes; None if a box in the tree is not the smallest around those below it.
+    pub leaves: [Option<usize>; 2],
+}

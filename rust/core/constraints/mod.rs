@@ -1,0 +1,7 @@
+//! What restricts motion. Each constraint gives rows: a Jacobian J, a target for Jv and bounds on the
+//! impulse.
+
+pub mod contact;
+mod motion;
+
+pub use motion::{Place, Velocity};

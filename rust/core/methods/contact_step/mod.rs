@@ -1,0 +1,178 @@
+//! The contact step: the midpoint rule with impacts, after Moreau ("Numerical aspects of the sweeping
+//! process", 1999) and Jean ("The non-smooth contact dynamics method", 1999).
+//!
+//! A substep of length h: drift by h/2; half kick; impacts, located inside the substep; half kick; contact and
+//! friction rows at the level of velocities, with the geometry of the midpoint; drift by h/2; what overlaps too far is
+//! moved apart, positions only, and the work that costs against the forces is booked.
+//!
+//! It is exact for constant forces, and a contact that persists along a curve obeys J(v⁻ + v⁺) = 0, so that a
+//! smooth ball in a bowl keeps its energy.
+
+mod group;
+mod impacts;
+mod law;
+mod path;
+mod project;
+
+use crate::body::ImpactLaw;
+use crate::constraints::Place;
+use crate::constraints::contact::{Block, curvature, moved};
+use crate::error::Result;
+use crate::forces::Ledger;
+use crate::math::{Real, Twist};
+use crate::methods::Span;
+use crate::solvers::sweep::{self, Budget};
+pub use group::{Group, Link, Mass};
+
+/// What else acts on the bodies of a group.
+pub trait Surroundings {
+    /// Writes the accelerations that hold over the substep around `time` into the places.
+    ///
+    /// # Errors
+    /// Those of the user's fields.
+    fn accelerate(&mut self, time: Real, group: &mut Group) -> Result<()>;
+
+    /// Moves the bodies for a time h with no force but the air's and damping; returns what those take (J).
+    ///
+    /// # Errors
+    /// Motion that the flow of the drag cannot give.
+    fn drift(&mut self, h: Real, group: &mut Group) -> Result<Real>;
+}
+
+/// How hard to try.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings {
+    /// Law of impact.
+    pub law: ImpactLaw,
+    /// Most sweeps over the rows a substep.
+    pub sweeps: u32,
+}
+
+/// What a run took.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Outcome {
+    /// Energy across the group's border.
+    pub ledger: Ledger,
+    /// Sweeps in all.
+    pub sweeps: u64,
+    /// Impacts resolved.
+    pub impacts: u64,
+    /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
+    pub residual: Real,
+}
+
+/// Moves a group through a span.
+///
+/// # Errors
+/// Those of the surroundings.
+pub fn run(
+    group: &mut Group,
+    span: Span,
+    settings: Settings,
+    around: &mut dyn Surroundings,
+) -> Result<Outcome> {
+    let mut outcome = Outcome::default();
+    let h = span.h();
+    for k in 0..span.substeps {
+        outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
+        around.accelerate(span.time(k) + h / 2.0, group)?;
+        place_blocks(group);
+        kick(group, h / 2.0);
+        impacts::resolve(group, h, settings.law, &mut outcome);
+        kick(group, h / 2.0);
+        solve_rows(group, h, settings, &mut outcome);
+        outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
+        outcome.ledger.correction_work += project::apart(group, h);
+    }
+    Ok(outcome)
+}
+
+/// Geometry of the midpoint.
+fn place_blocks(group: &mut Group) {
+    for k in 0..group.blocks.len() {
+        place_block(group, k);
+    }
+}
+
+fn place_block(group: &mut Group, k: usize) {
+    let Group { velocities, places, blocks, links, .. } = group;
+    let (block, link) = (&mut blocks[k], &mut links[k]);
+    let [a, b] = block.bodies.map(|slot| slot as usize);
+    let bodies = [&places[a], &places[b]];
+    let at = moved(&link.manifold, link.apart, bodies);
+    block.place(&link.manifold, &at, [&velocities[a], &velocities[b]]);
+    for p in 0..link.manifold.count {
+        link.curvature[p] = if block.impulse[p] > 0.0 {
+            let twists = [&velocities[a].twist, &velocities[b].twist];
+            curvature(&link.manifold, &at, (link.apart, p), bodies, twists)
+        } else {
+            0.0
+        };
+    }
+}
+
+/// v += a·h.
+fn kick(group: &mut Group, h: Real) {
+    for (velocity, place) in group.velocities.iter_mut().zip(&group.places) {
+        velocity.twist += place.kick(h);
+    }
+}
+
+/// Contact and friction rows on the velocities after the kicks.
+fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outcome) {
+    let Group { velocities, places, blocks, links, free, .. } = group;
+    free.clear();
+    free.extend(velocities.iter().map(|velocity| velocity.twist));
+    let mut fastest: Real = 0.0;
+    for (block, link) in blocks.iter_mut().zip(&*links) {
+        let [a, b] = block.bodies.map(|slot| slot as usize);
+        let bodies = [&velocities[a], &velocities[b]];
+        let along = block.velocity(bodies);
+        for k in 0..link.manifold.count {
+            let (target, on) = row(link, (block, k), along[k], h);
+            (block.target[k], block.on[k]) = (target, on);
+        }
+        block.prepare(bodies);
+        fastest = fastest.max(kick_along(block, [&places[a], &places[b]], h));
+    }
+    sweep::warm_start(velocities, blocks);
+    let most = settings.sweeps.max(SMALL / (blocks.len() as u32).max(1)).min(5 * settings.sweeps);
+    let budget = Budget { tolerance: CALM * fastest, most };
+    let (sweeps, residual) = sweep::solve(velocities, blocks, budget);
+    outcome.sweeps += u64::from(sweeps);
+    outcome.residual = outcome.residual.max(residual);
+    group.book_rows(h, &mut outcome.ledger);
+}
+
+/// Part of the substep's kick to which the velocities of the rows must settle.
+const CALM: Real = 1e-6;
+
+/// Blocks times sweeps that cost next to nothing: small groups may sweep more often, up to five times.
+const SMALL: u32 = 600;
+
+/// Normal velocity that a kick of length h gives a block.
+fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
+    let apart = b.acceleration.linear - a.acceleration.linear;
+    block.normal.dot(&apart).abs() * h
+}
+
+/// Target of a normal row, and whether it takes part.
+///
+/// Touching: v ≥ 0, or along a curve v ≥ −½h·J̇v, which with the velocity before makes J(v⁻ + v⁺) = 0. Not yet
+/// touching: v ≥ −s/h. A gap below what the curve itself opens in half a step counts as touching.
+fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real, bool) {
+    let gap = block.gap[k];
+    let bend = link.curvature[k] * h;
+    if gap <= (bend * h).abs() {
+        return (-0.5 * bend, true);
+    }
+    // What arrives by an impact is not braked before, and what passes by not at all.
+    (-gap / h, !(link.watched && along < -link.resting[k]))
+}
+
+impl std::ops::AddAssign for Twist {
+    fn add_assign(&mut self, other: Self) {
+        self.linear += other.linear;
+        self.angular += other.angular;
+    }
+}

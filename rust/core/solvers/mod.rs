@@ -1,0 +1,6 @@
+//! How rows are solved.
+
+mod block;
+pub mod sweep;
+
+pub use block::impulses as block_impulses;

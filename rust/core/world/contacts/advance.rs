@@ -1,0 +1,227 @@
+//! The stage that moves what touches: each group of bodies that contacts tie by the contact step.
+
+use super::near::Kind;
+use crate::body::Bodies;
+use crate::collision::Manifold;
+use crate::constraints::contact::Block;
+use crate::constraints::{Place, Velocity};
+use crate::error::Result;
+use crate::forces::{Air, drift_body, has_resistance};
+use crate::islands::Islands;
+use crate::math::{Pose, Real, Twist, Vec2, Wrench};
+use crate::methods::Span;
+use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Surroundings};
+use crate::world::{State, World};
+
+/// Columns of the stage; kept between steps so that a warm step allocates nothing.
+#[derive(Clone, Default)]
+pub(in crate::world) struct ContactScratch {
+    pub found: Vec<Manifold>,
+    islands: Islands,
+    links: Vec<[u32; 2]>,
+    /// Patches of the links.
+    solid: Vec<u32>,
+    group: Group,
+    /// Slot of each body in the group at work; valid where the mark is the group's.
+    slots: Vec<(u32, u32)>,
+    mark: u32,
+    /// Bodies that the contact step has moved in this span.
+    moved: Vec<bool>,
+}
+
+impl ContactScratch {
+    /// Whether the contact step moves a body in this span.
+    pub fn moves(&self, body: usize) -> bool {
+        self.moved.get(body).copied().unwrap_or(false)
+    }
+}
+
+impl World {
+    /// Splits what touches into groups.
+    pub(in crate::world) fn find_islands(&mut self) {
+        let Self { state, scratch, .. } = self;
+        let (contacts, masses) = (&state.contacts, &state.bodies.masses);
+        let ContactScratch { islands, links, solid, moved, .. } = &mut scratch.contacts;
+        (links.clear(), solid.clear());
+        moved.clear();
+        moved.resize(masses.len(), false);
+        for (place, patch) in contacts.patches.iter().enumerate() {
+            let near = &contacts.near[patch.near as usize];
+            if matches!(near.kind, Kind::Solid | Kind::OneWay { solid: true }) {
+                let bodies = near.proxies.map(|proxy| contacts.body_of(proxy));
+                links.push(bodies);
+                solid.push(place as u32);
+                bodies.iter().for_each(|i| moved[*i as usize] = masses[*i as usize].is_free());
+            }
+        }
+        islands.split(masses.len(), links, |body| masses[body as usize].is_free());
+    }
+
+    /// Moves every group through a span.
+    pub(in crate::world) fn advance_contacts(&mut self, span: Span) -> Result<()> {
+        self.state.contacts.scale_impulses(span.h());
+        for k in 0..self.scratch.contacts.islands.len() {
+            self.gather(k, span);
+            let outcome = self.step_group(span)?;
+            self.scatter(outcome);
+        }
+        Ok(())
+    }
+
+    /// Fills the group with the bodies and contacts of island k.
+    fn gather(&mut self, k: usize, span: Span) {
+        let Self { state, scratch, .. } = self;
+        let State { bodies, settings, contacts, .. } = state;
+        let steady = &scratch.steady;
+        let ContactScratch { islands, links, solid, group, slots, mark, .. } =
+            &mut scratch.contacts;
+        group.clear();
+        *mark = mark.wrapping_add(1);
+        slots.resize(bodies.len(), (0, 0));
+        let h = span.h();
+        for link in islands.group(k) {
+            let pair = links[*link as usize];
+            let place = solid[*link as usize];
+            let slots = pair.map(|body| {
+                let entry = &mut slots[body as usize];
+                if entry.0 != *mark {
+                    *entry = (*mark, group.bodies.len() as u32);
+                    let steady = steady.get(body as usize).copied().unwrap_or(Wrench::ZERO);
+                    add_body(group, bodies, body, (settings.gravity, steady));
+                }
+                entry.1
+            });
+            let patch = &contacts.patches[place as usize];
+            let near = &contacts.near[patch.near as usize];
+            let [i, j] = pair.map(|body| body as usize);
+            let apart = bodies.poses[j].position - bodies.poses[i].position;
+            let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
+            let width = x.width.min(y.width);
+            let swift = is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
+            group.driven |= near.touch.tangent_speed != 0.0;
+            let block = Block::new(slots, &patch.manifold, &near.touch, &patch.memory);
+            group.add_contact(
+                block,
+                Link {
+                    manifold: patch.manifold,
+                    apart,
+                    restitution: near.touch.restitution,
+                    width,
+                    place,
+                    curvature: [0.0; 2],
+                    resting: [0.0; 2],
+                    watched: near.touch.restitution > 0.0 || swift,
+                    impact: 0.0,
+                    approach: 0.0,
+                },
+            );
+        }
+    }
+
+    fn step_group(&mut self, span: Span) -> Result<Outcome> {
+        let Self { state, scratch, plan, .. } = self;
+        let settings = contact_step::Settings {
+            law: state.settings.impact_law,
+            sweeps: state.settings.sweeps,
+        };
+        let resistance = plan.as_ref().is_some_and(|plan| plan.resistance);
+        let mut around = Still { bodies: &state.bodies, air: state.settings.air, resistance };
+        contact_step::run(&mut scratch.contacts.group, span, settings, &mut around)
+    }
+
+    /// Brings the group's motion and impulses back to the columns.
+    fn scatter(&mut self, outcome: Outcome) {
+        let Self { state, scratch, report, .. } = self;
+        let State { bodies, contacts, ledger, .. } = state;
+        let group = &scratch.contacts.group;
+        for (slot, body) in group.bodies.iter().enumerate() {
+            let (i, velocity, place) =
+                (*body as usize, &group.velocities[slot], &group.places[slot]);
+            if velocity.is_fixed() {
+                continue;
+            }
+            bodies.twists[i] = velocity.twist;
+            bodies.poses[i].position += place.way;
+            bodies.poses[i].angle += place.turn;
+            if let Some(steady) = scratch.steady.get(i) {
+                let way = Twist::new(place.way, place.turn);
+                ledger.work += crate::forces::power(steady, &way, &bodies.masses[i]);
+            }
+        }
+        for (block, link) in group.blocks.iter().zip(&group.links) {
+            contacts.patches[link.place as usize].memory = block.memory();
+        }
+        *ledger += outcome.ledger;
+        report.sweeps += outcome.sweeps;
+        report.impacts += outcome.impacts;
+        report.residual = report.residual.max(outcome.residual);
+    }
+}
+
+fn add_body(group: &mut Group, bodies: &Bodies, body: u32, (gravity, steady): (Vec2, Wrench)) {
+    let i = body as usize;
+    let mass = &bodies.masses[i];
+    let mut acceleration = mass.acceleration(&steady);
+    acceleration.linear += gravity.component_mul(&mass.gravity_scale);
+    let velocity = Velocity::new(bodies.twists[i], mass);
+    let fixed = velocity.is_fixed();
+    group.driven |= fixed && velocity.twist != Twist::ZERO;
+    group.bodies.push(body);
+    group.velocities.push(velocity);
+    let acceleration = if fixed { Twist::ZERO } else { acceleration };
+    group.places.push(Place::start(&bodies.poses[i], acceleration));
+    group.masses.push(if fixed {
+        Mass::default()
+    } else {
+        Mass { mass: mass.mass, inertia: mass.inertia }
+    });
+}
+
+/// Whether two bodies move too far in a substep for rows to foresee where they meet: by more than a quarter of the
+/// smaller width, or a quarter of a radian.
+fn is_swift(
+    bodies: &Bodies,
+    [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
+    (width, h): (Real, Real),
+) -> bool {
+    const FAR: Real = 0.25;
+    let [a, b] = [&bodies.twists[i], &bodies.twists[j]];
+    let turn = a.angular.abs() * reach_i + b.angular.abs() * reach_j;
+    let way = (b.linear - a.linear).norm() + turn;
+    way * h > FAR * width
+}
+
+/// Surroundings whose forces stay the same over a span.
+struct Still<'a> {
+    bodies: &'a Bodies,
+    air: Air,
+    resistance: bool,
+}
+
+impl Surroundings for Still<'_> {
+    fn accelerate(&mut self, _time: Real, _group: &mut Group) -> Result<()> {
+        Ok(())
+    }
+
+    fn drift(&mut self, h: Real, group: &mut Group) -> Result<Real> {
+        let Group { bodies, velocities, places, .. } = group;
+        let mut dissipated = 0.0;
+        for (slot, (velocity, place)) in velocities.iter_mut().zip(places).enumerate() {
+            let i = bodies[slot] as usize;
+            let (mass, info) = (&self.bodies.masses[i], &self.bodies.infos[i]);
+            if !self.resistance || velocity.is_fixed() || !has_resistance(info, self.air) {
+                place.drift(&velocity.twist, h);
+                continue;
+            }
+            let before = mass.kinetic_energy(&velocity.twist);
+            let start = self.bodies.poses[i].angle + place.turn;
+            // Counted from where the body is, so that the way is not rounded at its place.
+            let mut pose = Pose::new(Vec2::zeros(), start);
+            drift_body(mass, info, self.air, (h, &mut pose, &mut velocity.twist))?;
+            place.way += pose.position;
+            place.rotate(pose.angle - start);
+            dissipated += before - mass.kinetic_energy(&velocity.twist);
+        }
+        Ok(dissipated)
+    }
+}

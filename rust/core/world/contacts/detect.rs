@@ -1,0 +1,159 @@
+//! The stage that finds what touches or may touch during the step.
+
+use super::near::Kind;
+use super::{Contacts, Near, Patch, margin, swept};
+use crate::body::{Bodies, Mixing, Role};
+use crate::collision::{Frame, Manifold, ProxyId, collide};
+use crate::constraints::contact::Touch;
+use crate::math::{Real, Vec2};
+use crate::world::World;
+
+impl World {
+    /// Broad phase, then narrow phase.
+    pub(in crate::world) fn detect(&mut self, dt: Real) {
+        let Self { state, plan, scratch, .. } = self;
+        let Some(plan) = plan else { return };
+        let (contacts, bodies, settings) = (&mut state.contacts, &state.bodies, &state.settings);
+        let step = Step { dt, gravity: settings.gravity };
+        contacts.follow(bodies, &plan.colliding, &step);
+        contacts.pair_up(bodies, &settings.mixing);
+        contacts.order(bodies, settings.gravity);
+        contacts.find_manifolds(bodies, &step, &mut scratch.contacts.found);
+    }
+}
+
+/// What bounds the motion of a step.
+struct Step {
+    dt: Real,
+    gravity: Vec2,
+}
+
+impl Step {
+    /// Way and turn of a body, by its velocity and gravity.
+    fn motion(&self, bodies: &Bodies, body: usize) -> (Vec2, Real) {
+        let twist = &bodies.twists[body];
+        let fall = self.gravity.component_mul(&bodies.masses[body].gravity_scale);
+        (twist.linear * self.dt + fall * (0.5 * self.dt * self.dt), twist.angular.abs() * self.dt)
+    }
+}
+
+impl Contacts {
+    /// Moves the boxes after the bodies.
+    fn follow(&mut self, bodies: &Bodies, moving: &[u32], step: &Step) {
+        let moved = std::mem::take(&mut self.moved);
+        for body in moved.iter().chain(moving) {
+            let i = *body as usize;
+            let frame = Frame::of(&bodies.poses[i]);
+            self.frames[i] = frame;
+            let motion = step.motion(bodies, i);
+            for proxy in &self.of_body[i] {
+                let collider = &self.entries[proxy.0 as usize].collider;
+                self.broad.update(*proxy, &swept(collider, &frame, motion), margin(collider));
+            }
+        }
+        self.moved = moved;
+        self.moved.clear();
+    }
+
+    /// Takes in pairs whose boxes have met, and drops those whose boxes have parted.
+    fn pair_up(&mut self, bodies: &Bodies, mixing: &Mixing) {
+        let Self { broad, entries, near, map, .. } = self;
+        let allow = |a: ProxyId, b: ProxyId| {
+            let [x, y] = [a, b].map(|proxy| &entries[proxy.0 as usize]);
+            let [i, j] = [x, y].map(|entry| entry.collider.body as usize);
+            if i == j || !x.filter.allows(&y.filter) || map.contains(a, b) {
+                return false;
+            }
+            let sensor = x.role == Role::Sensor || y.role == Role::Sensor;
+            sensor || bodies.masses[i].is_free() || bodies.masses[j].is_free()
+        };
+        let mut new = Vec::new();
+        broad.find_pairs(allow, |a, b| new.push([a, b]));
+        for proxies in new {
+            let [x, y] = proxies.map(|proxy| &entries[proxy.0 as usize]);
+            let kind = match (&x.role, &y.role) {
+                (Role::Sensor, _) | (_, Role::Sensor) => Kind::Sensor,
+                (Role::OneWay(_), _) | (_, Role::OneWay(_)) => Kind::OneWay { solid: false },
+                _ => Kind::Solid,
+            };
+            map.insert(proxies[0], proxies[1], 0);
+            let touch = touch(bodies, mixing, [&x.collider, &y.collider]);
+            near.push(Near {
+                proxies,
+                touch,
+                kind,
+                touching: false,
+                height: 0.0,
+                first: 0,
+                count: 0,
+            });
+        }
+        self.drop_near(|pair, contacts| !contacts.broad.overlaps(pair.proxies[0], pair.proxies[1]));
+    }
+
+    /// Orders the pairs from above down. Sweeps that follow the load settle several times sooner than those in any
+    /// order, and the order of creation plays no part.
+    fn order(&mut self, bodies: &Bodies, gravity: Vec2) {
+        let up = if gravity == Vec2::zeros() { Vec2::x() } else { -gravity.normalize() };
+        let Self { near, entries, .. } = self;
+        for pair in &mut *near {
+            let height = |proxy: ProxyId| {
+                let body = entries[proxy.0 as usize].collider.body as usize;
+                let free = bodies.masses[body].is_free();
+                (free, bodies.poses[body].position.dot(&up))
+            };
+            pair.height = match pair.proxies.map(height) {
+                [(true, a), (true, b)] => 0.5 * (a + b),
+                [(true, a), _] | [_, (_, a)] => a,
+            };
+        }
+        // Nearly sorted since the last step: one pass.
+        near.sort_by(|a, b| b.height.total_cmp(&a.height));
+    }
+
+    /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
+    fn find_manifolds(&mut self, bodies: &Bodies, step: &Step, found: &mut Vec<Manifold>) {
+        let Self { entries, near, patches, before, frames, .. } = self;
+        std::mem::swap(patches, before);
+        patches.clear();
+        for (place, pair) in near.iter_mut().enumerate() {
+            let old = &before[pair.first as usize..(pair.first + pair.count) as usize];
+            (pair.first, pair.count) = (patches.len() as u32, 0);
+            let [x, y] = pair.proxies.map(|proxy| &entries[proxy.0 as usize].collider);
+            let [i, j] = [x.body as usize, y.body as usize];
+            let reach = way_to_meet(bodies, step, [(i, x.reach), (j, y.reach)]);
+            let margin = 0.02 * x.width.min(y.width) + reach;
+            found.clear();
+            collide(&x.geometry, &y.geometry, &frames[j].seen_from(&frames[i]), margin, found);
+            for manifold in &*found {
+                patches.push(Patch::remembering(place as u32, *manifold, old));
+            }
+            pair.count = patches.len() as u32 - pair.first;
+        }
+    }
+}
+
+/// How far two bodies can come together in a step (m).
+fn way_to_meet(
+    bodies: &Bodies,
+    step: &Step,
+    [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
+) -> Real {
+    let ((way_i, turn_i), (way_j, turn_j)) = (step.motion(bodies, i), step.motion(bodies, j));
+    (way_j - way_i).norm() + turn_i.min(2.0) * reach_i + turn_j.min(2.0) * reach_j
+}
+
+/// What the surfaces of two colliders make of their values.
+fn touch(bodies: &Bodies, mixing: &Mixing, colliders: [&crate::collision::Collider; 2]) -> Touch {
+    let [a, b] = colliders.map(|collider| {
+        let def = &bodies.infos[collider.body as usize].def;
+        def.surface_of(&def.shapes[collider.part as usize])
+    });
+    let mixed = mixing.mix(&a, &b);
+    Touch {
+        friction: mixed.friction,
+        restitution: mixed.restitution,
+        rolling_resistance: mixed.rolling_resistance,
+        tangent_speed: mixed.tangent_speeds.iter().sum(),
+    }
+}

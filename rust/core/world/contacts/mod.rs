@@ -1,0 +1,166 @@
+//! Contacts of a world: the shapes in it, which of them are near one another, and what a contact remembers.
+
+mod advance;
+mod detect;
+mod near;
+
+pub(super) use advance::ContactScratch;
+pub(super) use near::{Near, Patch};
+
+use serde::{Deserialize, Serialize};
+
+use crate::body::{Bodies, Filter, Role};
+use crate::collision::{BroadPhase, Collider, Frame, PairMap, ProxyId, colliders};
+use crate::math::{Real, Rot, vec2};
+use crate::shapes::Aabb;
+
+/// One collider of a body, and what its part says of it.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(super) struct Entry {
+    pub collider: Collider,
+    pub filter: Filter,
+    pub role: Role,
+}
+
+/// All that detection keeps between steps.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub(super) struct Contacts {
+    broad: BroadPhase,
+    /// Colliders by the numbers of their proxies; free numbers hold what was there.
+    entries: Vec<Entry>,
+    /// Proxies of each body, in body order.
+    of_body: Vec<Vec<ProxyId>>,
+    /// Pairs whose boxes meet.
+    pub near: Vec<Near>,
+    /// Manifolds of the pairs, pair after pair.
+    pub patches: Vec<Patch>,
+    /// Length (s) of the substep that the remembered impulses are of.
+    pub substep: Real,
+    #[serde(skip)]
+    map: PairMap,
+    #[serde(skip)]
+    before: Vec<Patch>,
+    /// Frames of the bodies' centres of mass, in body order.
+    #[serde(skip)]
+    frames: Vec<Frame>,
+    /// Bodies whose place was set since the last detection.
+    #[serde(skip)]
+    moved: Vec<u32>,
+}
+
+/// No rotation, at the origin.
+const ORIGIN: Frame = Frame { position: vec2(0.0, 0.0), rot: Rot::IDENTITY };
+
+/// Keeping up with the bodies.
+impl Contacts {
+    /// Number of bodies that have shapes.
+    pub fn shaped(&self) -> usize {
+        self.of_body.iter().filter(|proxies| !proxies.is_empty()).count()
+    }
+
+    /// Whether a body has shapes.
+    pub fn has_shapes(&self, body: usize) -> bool {
+        !self.of_body[body].is_empty()
+    }
+
+    /// Takes in the last body of the columns.
+    pub fn add(&mut self, bodies: &Bodies) {
+        self.of_body.push(Vec::new());
+        self.frames.push(ORIGIN);
+        self.insert(bodies, bodies.len() - 1);
+    }
+
+    /// Takes in a body that was edited.
+    pub fn replace(&mut self, bodies: &Bodies, body: usize) {
+        self.take_out(body);
+        self.insert(bodies, body);
+    }
+
+    /// Forgets a body; the last one takes its place.
+    pub fn remove(&mut self, body: usize) {
+        self.take_out(body);
+        self.of_body.swap_remove(body);
+        self.frames.swap_remove(body);
+        let last = self.of_body.len() as u32;
+        self.moved.retain(|moved| *moved as usize != body);
+        self.moved
+            .iter_mut()
+            .filter(|moved| **moved == last)
+            .for_each(|moved| *moved = body as u32);
+        if let Some(proxies) = self.of_body.get(body) {
+            for proxy in proxies {
+                self.entries[proxy.0 as usize].collider.body = body as u32;
+            }
+        }
+    }
+
+    /// Tells that the place of a body was set.
+    pub fn touch(&mut self, body: usize) {
+        if self.has_shapes(body) {
+            self.moved.push(body as u32);
+        }
+    }
+
+    /// Tells that the places of all bodies were set.
+    pub fn touch_all(&mut self) {
+        self.moved.clear();
+        self.moved.extend(
+            (0..self.of_body.len() as u32).filter(|body| !self.of_body[*body as usize].is_empty()),
+        );
+    }
+
+    /// Derives what is not stored.
+    pub fn rebuild(&mut self) {
+        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
+        self.frames.resize(self.of_body.len(), ORIGIN);
+        self.touch_all();
+    }
+
+    fn insert(&mut self, bodies: &Bodies, body: usize) {
+        let def = &bodies.infos[body].def;
+        if def.shapes.is_empty() {
+            return;
+        }
+        let frame = Frame::of(&bodies.poses[body]);
+        self.frames[body] = frame;
+        let moving = def.kind != crate::body::BodyKind::Static;
+        for collider in colliders(body as u32, &def.shapes, bodies.local_centers[body]) {
+            let part = &def.shapes[collider.part as usize];
+            let entry = Entry { filter: def.filter_of(part), role: def.role_of(part), collider };
+            let (tight, margin) =
+                (entry.collider.geometry.bounds_at(&frame), margin(&entry.collider));
+            let proxy = self.broad.insert(&tight, margin, moving);
+            match self.entries.get_mut(proxy.0 as usize) {
+                Some(free) => *free = entry,
+                None => self.entries.push(entry),
+            }
+            self.of_body[body].push(proxy);
+        }
+    }
+
+    fn take_out(&mut self, body: usize) {
+        let proxies = std::mem::take(&mut self.of_body[body]);
+        if proxies.is_empty() {
+            return;
+        }
+        for proxy in &proxies {
+            self.broad.remove(*proxy);
+        }
+        self.drop_near(|near, _| near.proxies.iter().any(|proxy| proxies.contains(proxy)));
+    }
+
+    fn body_of(&self, proxy: ProxyId) -> u32 {
+        self.entries[proxy.0 as usize].collider.body
+    }
+}
+
+/// How much larger than needed a box is kept (m).
+fn margin(collider: &Collider) -> Real {
+    0.1 * collider.width
+}
+
+/// The box of a collider on its way through a step: moved by `way`, and turned by any of the angles up to `turn`.
+fn swept(collider: &Collider, frame: &Frame, (way, turn): (crate::math::Vec2, Real)) -> Aabb {
+    let here = collider.geometry.bounds_at(frame).grown(turn.min(2.0) * collider.reach);
+    here.merged(&Aabb { min: here.min + way, max: here.max + way })
+}

@@ -1,0 +1,99 @@
+//! Pairs of colliders whose boxes meet, and their manifolds.
+
+use serde::{Deserialize, Serialize};
+
+use super::Contacts;
+use crate::collision::{Manifold, ProxyId};
+use crate::constraints::contact::{Memory, Touch};
+use crate::math::Real;
+
+/// What a pair does when it touches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(in crate::world) enum Kind {
+    /// It resists.
+    Solid,
+    /// It resists from one side; whether it does now.
+    OneWay { solid: bool },
+    /// It only notices.
+    Sensor,
+}
+
+/// Two colliders whose boxes meet.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub(in crate::world) struct Near {
+    pub proxies: [ProxyId; 2],
+    pub touch: Touch,
+    pub kind: Kind,
+    /// Whether it touched after the last step.
+    pub touching: bool,
+    /// How high it stands against gravity (m), for the order of the rows.
+    pub height: Real,
+    /// Where its patches begin, and how many there are.
+    pub first: u32,
+    pub count: u32,
+}
+
+/// A manifold and what it remembers.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(in crate::world) struct Patch {
+    pub near: u32,
+    pub manifold: Manifold,
+    pub memory: Memory,
+}
+
+impl Patch {
+    /// A manifold as found, with the impulses of those points of the last step that have the same features.
+    pub fn remembering(near: u32, manifold: Manifold, before: &[Self]) -> Self {
+        let mut memory = Memory::NEW;
+        for old in before {
+            let same =
+                |k: usize, j: usize| manifold.anchors[k].feature == old.manifold.anchors[j].feature;
+            let mut kept = 0.0;
+            for k in 0..manifold.count {
+                for j in (0..old.manifold.count).filter(|j| same(k, *j)) {
+                    memory.impulse[k] = old.memory.impulse[j];
+                    kept += old.memory.impulse[j];
+                }
+            }
+            if kept > 0.0 {
+                let sum = old.memory.impulse[0] + old.memory.impulse[1];
+                memory.impulse[2] = old.memory.impulse[2] * (kept / sum);
+                memory.rolling = old.memory.rolling * (kept / sum);
+                memory.sliding = old.memory.sliding;
+            }
+        }
+        Self { near, manifold, memory }
+    }
+}
+
+impl Contacts {
+    /// Forgets pairs.
+    pub(super) fn drop_near(&mut self, mut gone: impl FnMut(&Near, &Self) -> bool) {
+        let mut near = std::mem::take(&mut self.near);
+        near.retain(|pair| {
+            let gone = gone(pair, self);
+            if gone {
+                self.map.remove(pair.proxies[0], pair.proxies[1]);
+            }
+            !gone
+        });
+        self.near = near;
+    }
+
+    /// Makes the remembered impulses those of a substep of length h (s).
+    pub fn scale_impulses(&mut self, h: f64) {
+        if self.substep > 0.0 && self.substep != h {
+            let scale = h / self.substep;
+            for Patch { memory, .. } in &mut self.patches {
+                memory.impulse.iter_mut().for_each(|impulse| *impulse *= scale);
+                memory.rolling *= scale;
+            }
+        }
+        self.substep = h;
+    }
+
+    /// The patches of a pair.
+    pub fn patches_of(&self, near: &Near) -> &[Patch] {
+        &self.patches[near.first as usize..(near.first + near.count) as usize]
+    }
+}
