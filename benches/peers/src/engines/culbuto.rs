@@ -45,7 +45,7 @@ impl Engine for Culbuto {
     fn build(scene: &Scene) -> Result<Self> {
         let mut world = World::new(scene.gravity)?;
         world.set_substeps(scene.substeps)?;
-        // Sleeping goes here, once there is any: world.set_sleeping(scene.sleeping).
+        world.set_sleeping(scene.sleeping); // it has no body that starts asleep
         let surface = Surface {
             friction: Friction::of(scene.friction),
             restitution: scene.restitution,
