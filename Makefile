@@ -59,7 +59,7 @@ peers: $(PEERS)/venv/installed ## Race other engines: SCENES="tumbler washer" EN
 
 peers-check: $(PEERS)/venv/installed ## Formatting, lints and tests of benches/peers
 	$(PEERS_CARGO) cargo fmt --check
-	$(PEERS_CARGO) cargo clippy --all-targets $(PEERS_BUILD) -- -D warnings
+	$(PEERS_CARGO) cargo clippy --no-deps --all-targets $(PEERS_BUILD) -- -D warnings
 	$(PEERS_CARGO) PEERS_PYTHON=$(PEERS)/venv/bin/python cargo test $(PEERS_BUILD)
 
 $(PEERS)/venv/installed:

@@ -1,8 +1,8 @@
-"""Pymunk's side of the race: reads orders from the runner, a line of JSON each, and answers in kind.
+"""Pymunk's side of the race: reads orders from the runner, a line of JSON each, and answers so.
 
 The orders: {"start": scene} makes the world of a scene; {"advance": [first, last]} takes the steps
-from the first to before the last and answers with their CPU time in seconds; "state" answers with all
-bodies, and "version" with pymunk's. Not for use by hand: the runner starts it, see `make peers`.
+from the first to before the last and answers with their CPU time in seconds; "state" answers with
+all bodies, "version" with pymunk's. Not for use by hand: the runner starts it, see `make peers`.
 """
 
 from __future__ import annotations

@@ -45,7 +45,7 @@ trait Engine: Sized {
 pub trait Entrant {
     /// What it is called in tables.
     fn name(&self) -> &str;
-    /// Its version.
+    /// What it is built from, and its version.
     fn version(&mut self) -> Result<String>;
     /// Makes the world of a scene and forgets the one before.
     fn start(&mut self, scene: &Scene) -> Result<()>;
@@ -78,7 +78,7 @@ impl<E: Engine> Entrant for Native<E> {
     fn version(&mut self) -> Result<String> {
         let entry = format!("name = \"{}\"\nversion = \"", self.package);
         let found = LOCK.split_once(&entry).and_then(|(_, rest)| rest.split_once('"'));
-        Ok(found.ok_or("not in Cargo.lock")?.0.into())
+        Ok(format!("{} {}", self.package, found.ok_or("not in Cargo.lock")?.0))
     }
 
     fn start(&mut self, scene: &Scene) -> Result<()> {

@@ -89,7 +89,7 @@ fn row(outcome: &Outcome, entry: &Entry) -> Vec<String> {
         }
         None => row.extend(cells(["failed", ""])),
     }
-    row.push(outcome.ratio(entry).map_or(String::new(), |ratio| format!("{ratio:.2}")));
+    row.push(outcome.ratio(entry).map_or(String::new(), three));
     if let Some(end) = entry.end {
         row.extend([1e3 * end.overlap, end.kinetic, end.total, end.rms_speed].map(three));
         row.push(end.lost.to_string());
@@ -137,8 +137,7 @@ fn summary(report: &Report) -> String {
 
 /// The page.
 pub fn page(report: &Report) -> String {
-    let versions: Vec<String> =
-        report.versions.iter().map(|(name, version)| format!("{name} {version}")).collect();
+    let versions: Vec<&str> = report.versions.iter().map(|(_, version)| &version[..]).collect();
     let mut text = format!(
         "# Beside other engines\n\n{}\n\n{}, {}; {}. {} rounds. {}.\n\n{}",
         include_str!("page.md").trim_end(),

@@ -67,7 +67,8 @@ impl Entrant for Worker {
     }
 
     fn version(&mut self) -> Result<String> {
-        self.ask(&Order::Version)
+        let version: String = self.ask(&Order::Version)?;
+        Ok(format!("pymunk {version}"))
     }
 
     fn start(&mut self, scene: &Scene) -> Result<()> {
