@@ -1,8 +1,12 @@
-//! What finding pairs costs: 10 000 unit boxes side by side.
+//! What detection costs: finding pairs of 10 000 unit boxes side by side; single times of impact and distances.
+
+use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use culbuto::collision::{BroadPhase, ProxyId};
-use culbuto::math::{Real, Vec2, vec2};
+use culbuto::collision::{
+    self, BroadPhase, Collider, Convex, Frame, Geometry, ProxyId, Sweep, WireArc,
+};
+use culbuto::math::{Pose, Real, Rot, Vec2, vec2};
 use culbuto::shapes::Aabb;
 
 const COLUMNS: u32 = 100;
@@ -56,7 +60,6 @@ fn broad_phase(criterion: &mut Criterion) {
     {
         let mut settled = pile();
         settled.find_pairs(|_, _| true, |_, _| {});
-        let start = settled.quality();
         let mut time = 0.0;
         criterion.bench_function(&format!("broad phase: 10 000, {name}"), |b| {
             b.iter(|| {
@@ -64,8 +67,6 @@ fn broad_phase(criterion: &mut Criterion) {
                 step(&mut settled, time % 200.0, speed)
             });
         });
-        let end = settled.quality();
-        eprintln!("tree before and after: {start:?} {end:?}");
     }
     let broad = pile();
     criterion.bench_function("broad phase: query", |b| {
@@ -82,5 +83,44 @@ fn broad_phase(criterion: &mut Criterion) {
     });
 }
 
-criterion_group!(benches, broad_phase);
+fn moving(from: [Real; 3], to: [Real; 3]) -> Sweep {
+    let pose = |[x, y, angle]: [Real; 3]| Pose::new(vec2(x, y), angle);
+    Sweep { from: pose(from), to: pose(to) }
+}
+
+fn rectangle(width: Real, height: Real) -> Collider {
+    let (x, y) = (width / 2.0, height / 2.0);
+    let corners = vec![vec2(-x, -y), vec2(x, -y), vec2(x, y), vec2(-x, y)];
+    Collider::new(0, 0, Geometry::Convex(Convex::new(corners, 0.0)))
+}
+
+fn time_of_impact(criterion: &mut Criterion) {
+    let still = moving([0.0; 3], [0.0; 3]);
+    let disk = Collider::new(0, 0, Geometry::Convex(Convex::new(vec![vec2(0.0, 0.0)], 0.01)));
+    let ring = Collider::new(0, 0, Geometry::Arc(WireArc::new(vec2(0.0, 0.0), 2.0, 0.0, 6.0)));
+    let (wall, unit, bar) = (rectangle(1e-3, 10.0), rectangle(1.0, 1.0), rectangle(2.0, 1e-3));
+    let cases = [
+        ("a disk at a wall", &disk, moving([-600.0, 0.0, 0.0], [1000.0, 0.5, 0.0]), &wall),
+        ("a tumbling box at a wall", &unit, moving([-3.0, 0.0, 0.0], [3.0, 0.5, 2.0]), &wall),
+        ("a tumbling box past a box", &unit, moving([-3.0, 1.43, 0.0], [3.0, 1.43, 2.0]), &unit),
+        (
+            "a bar of 16 turns that grazes",
+            &bar,
+            moving([-1.0006, 0.0, 0.0], [-1.0006, 0.0, 100.0]),
+            &wall,
+        ),
+        ("a box within an open ring", &unit, moving([0.0, 0.0, 0.0], [1.9, 0.5, 2.0]), &ring),
+    ];
+    for (name, a, sweep, b) in cases {
+        criterion.bench_function(&format!("time of impact: {name}"), |bencher| {
+            bencher.iter(|| collision::time_of_impact(a, &sweep, b, &still, 1e-5));
+        });
+    }
+    let frame = Frame { position: vec2(1.3, 1.2), rot: Rot::new(0.3) };
+    criterion.bench_function("distance of two boxes", |bencher| {
+        bencher.iter(|| collision::distance(&unit.geometry, &unit.geometry, black_box(&frame)));
+    });
+}
+
+criterion_group!(benches, broad_phase, time_of_impact);
 criterion_main!(benches);

@@ -512,7 +512,7 @@ class PairOfMaterials:
 class Energy:
     """Where a world's energy is (J). `balance` stays what it was, whatever happens."""
 
-    __match_args__: ClassVar[tuple[str, str, str, str, str, str]]
+    __match_args__: ClassVar[tuple[str, str, str, str, str, str, str]]
 
     def __new__(
         cls,
@@ -520,6 +520,7 @@ class Energy:
         potential: float,
         work: float,
         dissipated: float,
+        correction_work: float,
         total: float,
         balance: float,
     ) -> Energy: ...
@@ -534,13 +535,16 @@ class Energy:
         """Done on the bodies by forces without a potential, since the world was made."""
     @property
     def dissipated(self) -> float:
-        """Taken by drag and damping, since the world was made."""
+        """Taken by drag, damping, friction and impacts, since the world was made."""
+    @property
+    def correction_work(self) -> float:
+        """Done where overlap was removed by moving bodies apart, since the world was made."""
     @property
     def total(self) -> float:
         """Kinetic and potential energy."""
     @property
     def balance(self) -> float:
-        """total − work + dissipated."""
+        """total − work − correction_work + dissipated."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __reduce__(self) -> tuple[type[Energy], tuple[Any, ...]]: ...
@@ -1013,7 +1017,7 @@ class Trajectory:
 class StepReport:
     """What the last step or run took."""
 
-    __match_args__: ClassVar[tuple[str, str, str, str, str, str, str, str]]
+    __match_args__: ClassVar[tuple[str, str, str, str, str, str, str, str, str, str, str]]
 
     def __new__(
         cls,
@@ -1021,6 +1025,9 @@ class StepReport:
         steps: int,
         rejected: int,
         evaluations: int,
+        sweeps: int,
+        impacts: int,
+        residual: float,
         smallest_step: float,
         estimate: float | None,
         stages: Mapping[str, float],
@@ -1038,6 +1045,15 @@ class StepReport:
     @property
     def evaluations(self) -> int:
         """Evaluations of the forces."""
+    @property
+    def sweeps(self) -> int:
+        """Sweeps over the rows of contacts, summed over islands and substeps."""
+    @property
+    def impacts(self) -> int:
+        """Impacts resolved."""
+    @property
+    def residual(self) -> float:
+        """Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack."""
     @property
     def smallest_step(self) -> float:
         """Smallest step (s); infinite where only closed forms were needed."""
@@ -1159,6 +1175,11 @@ class World:
         """Into how many equal substeps a step is divided, 1 to 65536."""
     @substeps.setter
     def substeps(self, value: int, /) -> None: ...
+    @property
+    def sweeps(self) -> int:
+        """Most sweeps over the rows of contacts a substep, 1 to 10000; fewer where they settle."""
+    @sweeps.setter
+    def sweeps(self, value: int, /) -> None: ...
     @property
     def closed_form(self) -> bool:
         """Whether bodies under constant forces take the exact solution, whatever the method."""

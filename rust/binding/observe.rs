@@ -18,11 +18,13 @@ record! {
         potential: Real,
         /// Done on the bodies by forces without a potential, since the world was made.
         work: Real,
-        /// Taken by drag and damping, since the world was made.
+        /// Taken by drag, damping, friction and impacts, since the world was made.
         dissipated: Real,
+        /// Done where overlap was removed by moving bodies apart, since the world was made.
+        correction_work: Real,
         /// Kinetic and potential energy.
         total: Real,
-        /// total − work + dissipated.
+        /// total − work − correction_work + dissipated.
         balance: Real,
     }
 }
@@ -79,9 +81,10 @@ impl World {
     #[getter]
     fn energy(&self, py: Python<'_>) -> PyResult<Energy> {
         let energy = self.work(py, |core| core.energy())?;
-        let culbuto::observe::Energy { kinetic, potential, work, dissipated } = energy;
+        let culbuto::observe::Energy { kinetic, potential, work, dissipated, correction_work } =
+            energy;
         let (total, balance) = (energy.total(), energy.balance());
-        Ok(Energy { kinetic, potential, work, dissipated, total, balance })
+        Ok(Energy { kinetic, potential, work, dissipated, correction_work, total, balance })
     }
 
     /// Σ mv over the dynamic bodies (kg·m/s).

@@ -26,6 +26,12 @@ record! {
         rejected: u64,
         /// Evaluations of the forces.
         evaluations: u64,
+        /// Sweeps over the rows of contacts, summed over islands and substeps.
+        sweeps: u64,
+        /// Impacts resolved.
+        impacts: u64,
+        /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
+        residual: Real,
         /// Smallest step (s); infinite where only closed forms were needed.
         smallest_step: Real,
         /// Estimated relative error; None where it was not asked for.
@@ -45,6 +51,9 @@ impl From<&world::StepReport> for StepReport {
             steps: report.steps,
             rejected: report.rejected,
             evaluations: report.evaluations,
+            sweeps: report.sweeps,
+            impacts: report.impacts,
+            residual: report.residual,
             smallest_step: report.smallest_step,
             estimate: report.estimate,
             stages: stages.collect(),

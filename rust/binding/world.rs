@@ -247,6 +247,18 @@ impl World {
         self.set(py, |core| core.set_substeps(substeps))
     }
 
+    /// Most sweeps over the rows of contacts a substep, 1 to 10000; fewer where they settle.
+    #[getter]
+    fn sweeps(&self, py: Python<'_>) -> PyResult<u32> {
+        Ok(self.core(py)?.settings().sweeps)
+    }
+
+    #[setter]
+    fn set_sweeps(&self, py: Python<'_>, sweeps: i64) -> PyResult<()> {
+        let sweeps = count("sweeps", sweeps)?;
+        self.set(py, |core| core.set_sweeps(sweeps))
+    }
+
     /// Whether bodies under constant forces take the exact solution, whatever the method.
     #[getter]
     fn closed_form(&self, py: Python<'_>) -> PyResult<bool> {

@@ -2,16 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use culbuto::collision::{Collider, Convex, Frame, Geometry, Sweep, WireArc};
-use culbuto::math::{Pose, Real, Rot, Vec2, perp, vec2};
+use culbuto::collision::{Convex, Frame, Geometry, Sweep, WireArc};
+use culbuto::math::{Pose, Real, Rot, Vec2, vec2};
 use proptest::prelude::*;
 
 pub fn convex(vertices: Vec<Vec2>, radius: Real) -> Geometry {
-    let next = vertices.iter().cycle().skip(1);
-    let outward = |(a, b): (&Vec2, &Vec2)| -perp(*b - *a).normalize();
-    let edges = if vertices.len() == 1 { 0 } else { vertices.len() };
-    let normals = vertices.iter().zip(next).map(outward).take(edges).collect();
-    Geometry::Convex(Convex { vertices: vertices.into(), normals, radius, joins: None })
+    Geometry::Convex(Convex::new(vertices, radius))
 }
 
 pub fn disk(center: Vec2, radius: Real) -> Geometry {
@@ -24,14 +20,7 @@ pub fn rectangle(width: Real, height: Real) -> Geometry {
 }
 
 pub fn arc(center: Vec2, radius: Real, start: Real, sweep: Real) -> Geometry {
-    let unit = |angle| Rot::new(angle).apply(vec2(1.0, 0.0));
-    let (from, to) = (unit(start), unit(start + sweep));
-    Geometry::Arc(WireArc { center, radius, from, to, sweep })
-}
-
-pub fn collider(geometry: Geometry) -> Collider {
-    let reach = outline(&geometry, 100).iter().map(|p| p.norm()).fold(0.0, Real::max);
-    Collider { body: 0, part: 0, geometry, width: reach, reach }
+    Geometry::Arc(WireArc::new(center, radius, start, sweep))
 }
 
 /// The shape scaled about the origin.

@@ -1,11 +1,11 @@
 //! The time of impact is the first of a dense set of times at which the shapes are near.
 
-use culbuto::collision::{Geometry, Sweep, distance, time_of_impact};
+use culbuto::collision::{Collider, Geometry, Sweep, distance, time_of_impact};
 use culbuto::math::{Pose, Real, vec2};
 use proptest::prelude::*;
 
 use crate::figures::{
-    arc, arcs, b_in_a, collider, convex, disk, geometries, points, rectangle, scaled, sweeps,
+    arc, arcs, b_in_a, convex, disk, geometries, points, rectangle, scaled, sweeps,
 };
 
 fn distance_at(a: (&Geometry, &Sweep), b: (&Geometry, &Sweep), time: Real) -> Real {
@@ -14,7 +14,8 @@ fn distance_at(a: (&Geometry, &Sweep), b: (&Geometry, &Sweep), time: Real) -> Re
 }
 
 fn impact(a: (&Geometry, &Sweep), b: (&Geometry, &Sweep), target: Real) -> Option<Real> {
-    time_of_impact(&collider(a.0.clone()), a.1, &collider(b.0.clone()), b.1, target)
+    let [x, y] = [a.0, b.0].map(|geometry| Collider::new(0, 0, geometry.clone()));
+    time_of_impact(&x, a.1, &y, b.1, target)
 }
 
 /// What must hold of a time of impact, by looking at many times.

@@ -1,6 +1,6 @@
 //! What a ray or a shape that moves in a straight line hits.
 
-use super::core::{edges, includes};
+use super::core::edges;
 use super::{Convex, Geometry, Sweep, WireArc, contains, distance_to_point, first_impact};
 use crate::math::{Pose, Real, Vec2, cross};
 
@@ -113,7 +113,7 @@ impl Ray {
             let arm = self.at(distance) - arc.center;
             let outward = arm / arc.radius;
             let facing = if outward.dot(&self.along) <= 0.0 { outward } else { -outward };
-            if includes(arc, arm) { self.hit(distance, facing) } else { None }
+            if arc.includes(arm) { self.hit(distance, facing) } else { None }
         })
     }
 

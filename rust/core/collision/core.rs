@@ -1,9 +1,7 @@
 //! What shapes are grown from: convex cores and arcs, and how far a point of them is.
 
-use std::f64::consts::{PI, TAU};
-
 use super::{Convex, Frame, Geometry, WireArc};
-use crate::math::{Real, Rot, Vec2, cross, perp};
+use crate::math::{Real, Rot, Vec2, perp};
 
 /// A convex core with its radius, or a piece of an arc.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +29,7 @@ impl Core<'_> {
     pub fn support(&self, u: Vec2) -> Real {
         match self {
             Self::Convex(convex) => highest(convex, u).1,
-            Self::Arc(arc) if includes(arc, u) => arc.center.dot(&u) + arc.radius * u.norm(),
+            Self::Arc(arc) if arc.includes(u) => arc.center.dot(&u) + arc.radius * u.norm(),
             Self::Arc(arc) => {
                 ends(arc).map(|end| end.dot(&u)).into_iter().fold(Real::MIN, Real::max)
             }
@@ -47,7 +45,7 @@ impl Core<'_> {
             Self::Convex(convex) => farthest(&convex.vertices),
             Self::Arc(arc) => {
                 let away = arc.center - point;
-                if includes(arc, away) { away.norm() + arc.radius } else { farthest(&ends(arc)) }
+                if arc.includes(away) { away.norm() + arc.radius } else { farthest(&ends(arc)) }
             }
         }
     }
@@ -141,27 +139,12 @@ pub(super) fn ends(arc: &WireArc) -> [Vec2; 2] {
     [arc.from, arc.to].map(|end| arc.center + end * arc.radius)
 }
 
-/// Whether the ray from the centre of an arc along `direction` meets it.
-pub(super) fn includes(arc: &WireArc, direction: Vec2) -> bool {
-    let WireArc { from, to, sweep, .. } = *arc;
-    let (after, before) = (cross(from, direction), cross(direction, to));
-    if sweep >= TAU {
-        true
-    } else if sweep > PI {
-        after >= 0.0 || before >= 0.0
-    } else {
-        // Opposite a short arc both products vanish in rounding as well.
-        let ahead = from.dot(&direction) >= 0.0 || to.dot(&direction) >= 0.0;
-        after >= 0.0 && before >= 0.0 && ahead
-    }
-}
-
 /// How far a point is from an arc (m), the nearest point of it, and, where that is not an end, the unit vector that
 /// leads there: exact also where the two all but coincide.
 pub(super) fn point_to_arc(arc: &WireArc, p: Vec2) -> (Real, Vec2, Option<Vec2>) {
     let arm = p - arc.center;
     let length = arm.norm();
-    if length > 0.0 && includes(arc, arm) {
+    if length > 0.0 && arc.includes(arm) {
         let outward = arm / length;
         let normal = if length <= arc.radius { outward } else { -outward };
         return ((length - arc.radius).abs(), arc.center + outward * arc.radius, Some(normal));

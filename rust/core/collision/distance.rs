@@ -3,9 +3,7 @@
 //! Cores are small polygons, so that every vertex is held against every edge: exact up to rounding, and
 //! without iteration.
 
-use super::core::{
-    Core, arc_in, edges, ends, faces, highest, includes, point_to_arc, point_to_convex,
-};
+use super::core::{Core, arc_in, edges, ends, faces, highest, point_to_arc, point_to_convex};
 use super::{Convex, Frame, Geometry, WireArc};
 use crate::math::{Real, Vec2, perp, vec2};
 
@@ -154,7 +152,7 @@ fn convex_to_arc(core: &Convex, arc: &WireArc) -> Closest {
     for edge in edges(core) {
         let height = edge.normal.dot(&(arc.center - edge.ends[0]));
         let foot = arc.center - edge.normal * height;
-        if height > arc.radius && edge.spans(foot) && includes(arc, -edge.normal) {
+        if height > arc.radius && edge.spans(foot) && arc.includes(-edge.normal) {
             let on_arc = arc.center - edge.normal * arc.radius;
             let distance = height - arc.radius;
             closest =
@@ -163,7 +161,7 @@ fn convex_to_arc(core: &Convex, arc: &WireArc) -> Closest {
         if height.abs() <= arc.radius {
             let half = ((arc.radius - height) * (arc.radius + height)).max(0.0).sqrt();
             for at in [-half, half].map(|x| foot + perp(edge.normal) * x) {
-                if edge.spans(at) && includes(arc, at - arc.center) {
+                if edge.spans(at) && arc.includes(at - arc.center) {
                     closest = closest.nearer(Closest::crossing(at, edge.normal));
                 }
             }
@@ -194,8 +192,8 @@ fn arc_to_arc(a: &WireArc, b: &WireArc) -> Closest {
     }
     let u = apart / length;
     // Points at ±u on either circle; from one to the other it is along u.
-    for side_a in [1.0, -1.0].into_iter().filter(|side| includes(a, u * *side)) {
-        for side_b in [1.0, -1.0].into_iter().filter(|side| includes(b, u * *side)) {
+    for side_a in [1.0, -1.0].into_iter().filter(|side| a.includes(u * *side)) {
+        for side_b in [1.0, -1.0].into_iter().filter(|side| b.includes(u * *side)) {
             let along = length + side_b * b.radius - side_a * a.radius;
             let [on_a, on_b] =
                 [(a, side_a), (b, side_b)].map(|(arc, side)| arc.center + u * (side * arc.radius));
@@ -208,7 +206,7 @@ fn arc_to_arc(a: &WireArc, b: &WireArc) -> Closest {
     let half = (a.radius - x) * (a.radius + x);
     if half >= 0.0 {
         for at in [-half.sqrt(), half.sqrt()].map(|y| u * x + perp(u) * y) {
-            if includes(a, at) && includes(b, at - apart) {
+            if a.includes(at) && b.includes(at - apart) {
                 closest = closest.nearer(Closest::crossing(a.center + at, u));
             }
         }
