@@ -54,6 +54,12 @@ pub struct Link {
     pub resting: [Real; 2],
     /// Whether arrivals are looked for.
     pub watched: Watched,
+    /// Where a swift contact is going to meet.
+    pub found: Manifold,
+    /// It met in this substep.
+    pub met: bool,
+    /// It is apart in this substep: no row.
+    pub apart_now: bool,
     /// Normal impulses of impacts in the step (N·s), for events.
     pub impact: Real,
     /// Fastest approach of an impact in the step (m/s).
@@ -103,9 +109,11 @@ impl Group {
         self.watch.clear();
     }
 
-    /// Whether a body has got farther than was foreseen when what it can meet was looked for.
-    pub(super) fn has_escaped(&self) -> bool {
-        self.places.iter().zip(&self.reach).any(|(place, reach)| place.way.norm() > *reach)
+    /// How far a body has got beyond what was foreseen when what it can meet was looked for (m).
+    pub(super) fn farthest_thrown(&self) -> Real {
+        let ways = self.places.iter().map(|place| place.way.norm());
+        let thrown = ways.zip(&self.reach).filter(|(way, reach)| way > *reach);
+        thrown.map(|(way, _)| way).fold(0.0, Real::max)
     }
 
     /// Books what the rows of a substep took from the bodies.

@@ -64,8 +64,8 @@ pub struct Outcome {
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
     pub residual: Real,
-    /// A body was thrown so far that it may have met what was not looked for.
-    pub escaped: bool,
+    /// How far a body was thrown that may have met what was not looked for (m); 0 where none was.
+    pub thrown: Real,
 }
 
 /// Moves a group through a span.
@@ -88,9 +88,14 @@ pub fn run(
         impacts::resolve(group, h, settings.law, (around, &mut outcome));
         kick(group, h / 2.0);
         solve_rows(group, h, settings, &mut outcome);
+        if group.watch.has_swift(group) {
+            impacts::resolve_turned(group, h, settings.law, (around, &mut outcome));
+        }
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         outcome.ledger.correction_work += project::apart(group, h);
-        outcome.escaped |= !group.watch.blocks.is_empty() && group.has_escaped();
+        if !group.watch.blocks.is_empty() {
+            outcome.thrown = outcome.thrown.max(group.farthest_thrown());
+        }
     }
     Ok(outcome)
 }
@@ -169,6 +174,9 @@ fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
 /// Touching: v ≥ 0, or along a curve v ≥ −½h·J̇v, which with the velocity before makes J(v⁻ + v⁺) = 0. Not yet
 /// touching: v ≥ −s/h. A gap below what the curve itself opens in half a step counts as touching.
 fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real, bool) {
+    if link.apart_now {
+        return (0.0, false);
+    }
     let gap = block.gap[k];
     let bend = link.curvature[k] * h;
     if gap <= (bend * h).abs() {

@@ -25,6 +25,8 @@ pub struct Pair<'a> {
     pub velocities: [&'a Velocity; 2],
     /// Angles at the start of the step (rad).
     pub angles: [Real; 2],
+    /// The kick of the substep is over: the velocities stay.
+    pub kicked: bool,
 }
 
 impl Pair<'_> {
@@ -34,7 +36,9 @@ impl Pair<'_> {
         let at = |side: usize| {
             let mut place = *self.places[side];
             place.drift(&self.velocities[side].twist, time);
-            place.drift(&place.kick(0.5 * time), time);
+            if !self.kicked {
+                place.drift(&place.kick(0.5 * time), time);
+            }
             place
         };
         [at(0), at(1)]
@@ -45,7 +49,9 @@ impl Pair<'_> {
     pub fn velocities_at(&self, time: Real) -> [Velocity; 2] {
         let at = |side: usize| {
             let mut velocity = *self.velocities[side];
-            velocity.twist += self.places[side].kick(time);
+            if !self.kicked {
+                velocity.twist += self.places[side].kick(time);
+            }
             velocity
         };
         [at(0), at(1)]
@@ -67,12 +73,13 @@ impl Pair<'_> {
         [from, to]: [Real; 2],
         around: &dyn Surroundings,
     ) -> Option<(Arrival, Manifold)> {
-        // A shape that leaves one point of the other may still swing into another.
-        const TRIES: u32 = 16;
+        // Where shapes touch and do not approach, another point may still swing in: it has come when the distance is
+        // half of what it is.
+        let mut target = NEAR * self.link.width;
         let mut time = from;
-        while time < to {
+        while target > NEAREST * self.link.width && time < to {
             let ways = [0, 1].map(|side| self.way(side, [time, to]));
-            let (fraction, manifold) = around.meet(self.link, &ways, NEAR * self.link.width)?;
+            let (fraction, manifold) = around.meet(self.link, &ways, target)?;
             time += fraction * (to - time);
             let (places, velocities) = (self.places_at(time), self.velocities_at(time));
             let at = moved(&manifold, self.link.apart, [&places[0], &places[1]]);
@@ -82,13 +89,14 @@ impl Pair<'_> {
             if approach > resting {
                 return Some((Arrival { time, approach }, manifold));
             }
-            time += (to - from) / Real::from(TRIES);
+            let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
+            target = 0.5 * gap;
         }
         None
     }
 
     /// The way of a body between two times, from A's centre of mass at the start of the step.
-    fn way(&self, side: usize, times: [Real; 2]) -> Sweep {
+    pub fn way(&self, side: usize, times: [Real; 2]) -> Sweep {
         let start = if side == 0 { Vec2::zeros() } else { self.link.apart };
         let [from, to] = times.map(|time| {
             let place = &self.places_at(time)[side];
@@ -139,7 +147,10 @@ impl Pair<'_> {
 }
 
 /// Swift shapes meet when they are this part of the smaller width apart.
-pub const NEAR: Real = 1e-4;
+pub const NEAR: Real = 1e-2;
+
+/// Down to which part of it further points are told from those that touch.
+const NEAREST: Real = 1e-5;
 
 /// A gap below this part of the width is none.
 const SAME: Real = 1e-14;

@@ -30,8 +30,8 @@ pub(in crate::world) struct ContactScratch {
     moved: Vec<bool>,
     /// Some body may bounce or moves far in a step.
     pub watched: bool,
-    /// A body was thrown farther than what it can meet was looked for.
-    pub escaped: bool,
+    /// How far a body was thrown that may have met what was not looked for (m).
+    pub thrown: Real,
 }
 
 impl ContactScratch {
@@ -46,12 +46,12 @@ impl World {
     pub(in crate::world) fn find_islands(&mut self) {
         let Self { state, scratch, .. } = self;
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
-        let ContactScratch { islands, links, solid, moved, escaped, watched, .. } =
+        let ContactScratch { islands, links, solid, moved, thrown, watched, .. } =
             &mut scratch.contacts;
         (links.clear(), solid.clear());
         moved.clear();
         moved.resize(masses.len(), false);
-        (*escaped, *watched) = (false, contacts.far);
+        (*thrown, *watched) = (0.0, contacts.far);
         for (place, patch) in contacts.patches.iter().enumerate() {
             let near = &contacts.near[patch.near as usize];
             if matches!(near.kind, Kind::Solid | Kind::OneWay { solid: true }) {
@@ -106,7 +106,8 @@ impl World {
             let apart = bodies.poses[j].position - bodies.poses[i].position;
             let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
             let width = x.width.min(y.width);
-            let swift = is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
+            let swift = contacts.spread > FAR * width
+                || is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
             group.driven |= near.touch.tangent_speed != 0.0;
             let block = Block::new(slots, &patch.manifold, &near.touch, &patch.memory);
             group.add_contact(
@@ -124,6 +125,9 @@ impl World {
                         (false, true) => Watched::Bounces,
                         (false, false) => Watched::No,
                     },
+                    found: patch.manifold,
+                    met: false,
+                    apart_now: false,
                     impact: 0.0,
                     approach: 0.0,
                 },
@@ -166,7 +170,7 @@ impl World {
             contacts.patches[link.place as usize].memory = block.memory();
         }
         *ledger += outcome.ledger;
-        scratch.contacts.escaped |= outcome.escaped;
+        scratch.contacts.thrown = scratch.contacts.thrown.max(outcome.thrown);
         report.sweeps += outcome.sweeps;
         report.impacts += outcome.impacts;
         report.residual = report.residual.max(outcome.residual);

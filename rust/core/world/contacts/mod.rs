@@ -43,6 +43,9 @@ pub(super) struct Contacts {
     /// Frames of the bodies' centres of mass, in body order.
     #[serde(skip)]
     frames: Vec<Frame>,
+    /// How far any body may be thrown in the step (m), where one was thrown before; else 0.
+    #[serde(skip)]
+    pub spread: Real,
     /// Some body moves far in the step.
     #[serde(skip)]
     pub far: bool,
@@ -174,9 +177,9 @@ const FAR: Real = 0.25;
 
 /// The box of a collider on its way through a step: moved by `way`, or as far in any direction, and turned by any of
 /// the angles up to `turn`.
-fn swept(collider: &Collider, frame: &Frame, (way, turn): (Vec2, Real)) -> Aabb {
+fn swept(collider: &Collider, frame: &Frame, (way, turn): (Vec2, Real), spread: Real) -> Aabb {
     let here = collider.geometry.bounds_at(frame).grown(turn.min(2.0) * collider.reach);
-    let length = way.norm();
+    let length = way.norm().max(spread);
     if length > FAR * collider.width {
         return here.grown(length);
     }
