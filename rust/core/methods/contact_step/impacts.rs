@@ -125,7 +125,7 @@ pub fn resolve(
     strike_all(group, &mut watch, h / 2.0, law, (around, outcome));
     for k in &watch.blocks {
         if group.links[*k as usize].watched == Watched::Swift {
-            look_again(group, *k as usize, around);
+            look_again(group, &watch, *k as usize, around);
         }
     }
     if watch.seen.iter().any(|seen| *seen > 0) {
@@ -188,10 +188,13 @@ fn strike_all(
 }
 
 /// Which features of a swift contact touch now, for its rows: those that met in an impact, or those that the middle of
-/// the substep shows; none if the shapes are apart there.
-fn look_again(group: &mut Group, k: usize, around: &dyn Surroundings) {
+/// the substep shows, or the moment of the last impact after it, since before that a body's way is not its own; none if
+/// the shapes are apart there.
+fn look_again(group: &mut Group, watch: &Watch, k: usize, around: &dyn Surroundings) {
+    let [since_a, since_b] = group.blocks[k].bodies.map(|slot| watch.since[slot as usize]);
+    let now = since_a.max(since_b).max(0.0);
     let pair = pair(group, k, false);
-    let middle = [0, 1].map(|side| pair.way(side, [0.0, 0.0]));
+    let middle = [0, 1].map(|side| pair.way(side, [now, now]));
     let link = &mut group.links[k];
     if !link.met {
         let touching = around.meet(link, &middle, NEAR * link.width);
