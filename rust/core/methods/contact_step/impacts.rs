@@ -99,7 +99,7 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
     let mut queue = BinaryHeap::new();
     for k in &watch.blocks {
         set_resting(group, *k as usize, h);
-        queue.extend(next_event(group, &watch, *k, [-h / 2.0, h / 2.0]));
+        queue.extend(next_event(group, &watch, *k, ([-h / 2.0, h / 2.0], h)));
     }
     // Enough for every pair to meet many times; what a collapse leaves is for the rows.
     let mut left = 64 + 32 * watch.blocks.len();
@@ -112,7 +112,7 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
             break;
         }
         left -= 1;
-        strike(group, &event, law, outcome);
+        strike(group, (&event, h), law, outcome);
         for slot in bodies {
             let fixed = group.velocities[slot as usize].is_fixed();
             watch.seen[slot as usize] += u32::from(!fixed);
@@ -123,7 +123,7 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
             }
             let [from, to] = [0, 1].map(|k| watch.first[slot as usize + k] as usize);
             for k in &watch.of_slot[from..to] {
-                queue.extend(next_event(group, &watch, *k, [event.time, h / 2.0]));
+                queue.extend(next_event(group, &watch, *k, ([event.time, h / 2.0], h)));
             }
         }
     }
@@ -149,27 +149,34 @@ fn set_resting(group: &mut Group, k: usize, h: Real) {
     }
 }
 
-fn next_event(group: &Group, watch: &Watch, block: u32, [from, to]: [Real; 2]) -> Option<Event> {
+/// The first impact of a block between two times of a substep of length h.
+fn next_event(
+    group: &Group,
+    watch: &Watch,
+    block: u32,
+    ([from, to], h): ([Real; 2], Real),
+) -> Option<Event> {
     let bodies = group.blocks[block as usize].bodies;
-    let arrival = pair(group, block as usize).first_arrival(from, to)?;
+    let arrival = pair(group, block as usize, h).first_arrival(from, to)?;
     let stamp = watch.stamp(bodies);
     Some(Event { time: arrival.time, approach: arrival.approach, block, stamp })
 }
 
-fn pair(group: &Group, k: usize) -> Pair<'_> {
+fn pair(group: &Group, k: usize, h: Real) -> Pair<'_> {
     let [a, b] = group.blocks[k].bodies.map(|slot| slot as usize);
     Pair {
         link: &group.links[k],
         places: [&group.places[a], &group.places[b]],
         velocities: [&group.velocities[a], &group.velocities[b]],
+        h,
     }
 }
 
 /// One impact.
-fn strike(group: &mut Group, event: &Event, law: ImpactLaw, outcome: &mut Outcome) {
+fn strike(group: &mut Group, (event, h): (&Event, Real), law: ImpactLaw, outcome: &mut Outcome) {
     let k = event.block as usize;
     let (link, time) = (group.links[k], event.time);
-    let pair = pair(group, k);
+    let pair = pair(group, k, h);
     let (places, velocities) = (pair.places_at(time), pair.velocities_at(time));
     let bodies = [&velocities[0], &velocities[1]];
     let at = moved(&link.manifold, link.apart, [&places[0], &places[1]]);

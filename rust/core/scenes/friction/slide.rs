@@ -121,18 +121,18 @@ pub static STOPPING: Scene = Scene {
             Ok(if moves { Real::INFINITY } else { off })
         }),
         at_fixed_step("time to rest against 2.03873598369 s, relative", 1e-4, || {
-            // Of the last step that ends in motion, and of the way that is left then: s = ½vt.
+            // From the line through the last two speeds before.
             let mut world = on_slope(0.0, &rough(0.5), SPEED)?;
-            let (mut last, mut place, mut speed) = (0.0, 0.0, SPEED);
-            while speed > 1e-9 * SPEED && world.time() < 3.0 {
-                (last, place) = (world.time(), gone(&world, 0.0));
-                speed = world.bodies().twists[1].linear.x;
+            let (mut speeds, mut last) = ([SPEED; 2], 0.0);
+            loop {
                 world.step(DT)?;
-                if world.bodies().twists[1].linear.x <= 1e-9 * SPEED {
+                let speed = world.bodies().twists[1].linear.x;
+                if speed <= 1e-9 * SPEED || world.time() > 3.0 {
                     break;
                 }
+                (speeds, last) = ([speeds[1], speed], world.time());
             }
-            let rest = 2.0 * (gone(&world, 0.0) - place) / speed;
+            let rest = speeds[1] * DT / (speeds[0] - speeds[1]);
             Ok(((last + rest) / 2.038_735_983_69 - 1.0).abs())
         }),
     ],
