@@ -24,6 +24,17 @@ impl Mass {
     }
 }
 
+/// Whether arrivals of a contact are looked for, so that an impact comes of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// No: its rows foresee it.
+    No,
+    /// It bounces: when the features that are nearest now meet.
+    Bounces,
+    /// It moves too far in a substep for its rows and features to foresee: when the shapes meet, wherever.
+    Swift,
+}
+
 /// What the step needs of a contact beside its rows.
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
@@ -39,10 +50,14 @@ pub struct Link {
     pub place: u32,
     /// J̇v of points that carry a load (m/s²).
     pub curvature: [Real; 2],
+    /// The same along the surface where the load sticks to it.
+    pub turning: Real,
+    /// Tangential velocity (m/s) of B against A at which nothing slides.
+    pub tangent_speed: Real,
     /// Approach (m/s) up to which a contact rests and does not bounce: what the substep's kicks give it.
     pub resting: [Real; 2],
-    /// Arrivals are looked for: it bounces, or moves too far in a substep for its rows to foresee.
-    pub watched: bool,
+    /// Whether arrivals are looked for.
+    pub watched: Watched,
     /// Normal impulses of impacts in the step (N·s), for events.
     pub impact: Real,
     /// Fastest approach of an impact in the step (m/s).
@@ -59,6 +74,10 @@ pub struct Group {
     pub velocities: Vec<Velocity>,
     /// Places.
     pub places: Vec<Place>,
+    /// Angles at the start of the step (rad).
+    pub angles: Vec<Real>,
+    /// How far from its start each body may get before what it can meet must be looked for anew (m).
+    pub reach: Vec<Real>,
     /// Masses.
     pub masses: Vec<Mass>,
     /// Rows.
@@ -67,6 +86,8 @@ pub struct Group {
     pub links: Vec<Link>,
     /// Some surface is driven: a kinematic body or a conveyor.
     pub driven: bool,
+    /// Length of the substep (s).
+    pub(super) h: Real,
     /// Velocities before the rows.
     pub(super) free: Vec<Twist>,
     /// Where impacts may come.
@@ -80,10 +101,17 @@ impl Group {
         self.velocities.clear();
         self.places.clear();
         self.masses.clear();
+        self.angles.clear();
+        self.reach.clear();
         self.blocks.clear();
         self.links.clear();
         self.driven = false;
         self.watch.clear();
+    }
+
+    /// Whether a body has got farther than was foreseen when what it can meet was looked for.
+    pub(super) fn has_escaped(&self) -> bool {
+        self.places.iter().zip(&self.reach).any(|(place, reach)| place.way.norm() > *reach)
     }
 
     /// Books what the rows of a substep took from the bodies.
@@ -108,16 +136,16 @@ impl Group {
     }
 
     fn driving_work(&self) -> Real {
-        let work = |block: &Block| {
+        let work = |(block, link): (&Block, &Link)| {
             let bodies = block.bodies.map(|slot| &self.velocities[slot as usize]);
-            driving_work(block, &block.impulse, bodies)
+            driving_work(block, (&block.impulse, link.tangent_speed), bodies)
         };
-        self.blocks.iter().map(work).sum()
+        self.blocks.iter().zip(&self.links).map(work).sum()
     }
 
     /// Adds a contact, watched where it bounces or is swift.
     pub fn add_contact(&mut self, block: Block, link: Link) {
-        if link.watched {
+        if link.watched != Watched::No {
             self.watch.blocks.push(self.blocks.len() as u32);
         }
         self.blocks.push(block);
@@ -126,9 +154,13 @@ impl Group {
 }
 
 /// Work (J) that bodies with given motion and conveyors do through the impulses of a block.
-pub(super) fn driving_work(block: &Block, impulse: &[Real; 3], [a, b]: [&Velocity; 2]) -> Real {
+pub(super) fn driving_work(
+    block: &Block,
+    (impulse, tangent_speed): (&[Real; 3], Real),
+    [a, b]: [&Velocity; 2],
+) -> Real {
     let (n, t) = (block.normal, block.tangent());
-    let mut work = impulse[2] * block.target[2];
+    let mut work = impulse[2] * tangent_speed;
     for (k, direction) in [n, n, t].into_iter().enumerate() {
         let [arm_a, arm_b] = block.arms[k];
         // On the other body acts p along the direction; at the speed of the surface it does this work.

@@ -8,8 +8,8 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::law;
-use super::path::Pair;
-use super::{Group, Outcome};
+use super::path::{NEAR, Pair};
+use super::{Group, Outcome, Surroundings, Watched};
 use crate::body::ImpactLaw;
 use crate::constraints::contact::{Block, moved};
 use crate::math::{Real, Twist};
@@ -52,6 +52,8 @@ pub struct Watch {
     of_slot: Vec<u32>,
     /// Impacts of each slot in this substep.
     seen: Vec<u32>,
+    /// When the last of them was, from the middle (s).
+    last: Vec<Real>,
 }
 
 impl Watch {
@@ -86,7 +88,12 @@ impl Watch {
 }
 
 /// Resolves the impacts of a substep. The velocities are those of its middle.
-pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome) {
+pub fn resolve(
+    group: &mut Group,
+    h: Real,
+    law: ImpactLaw,
+    (around, outcome): (&dyn Surroundings, &mut Outcome),
+) {
     if group.watch.blocks.is_empty() {
         return;
     }
@@ -96,10 +103,13 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
     }
     watch.seen.clear();
     watch.seen.resize(group.velocities.len(), 0);
+    watch.last.clear();
+    watch.last.resize(group.velocities.len(), 0.0);
+    group.h = h;
     let mut queue = BinaryHeap::new();
     for k in &watch.blocks {
         set_resting(group, *k as usize, h);
-        queue.extend(next_event(group, &watch, *k, ([-h / 2.0, h / 2.0], h)));
+        queue.extend(next_event(group, (&watch, around), *k, [-h / 2.0, h / 2.0]));
     }
     // Enough for every pair to meet many times; what a collapse leaves is for the rows.
     let mut left = 64 + 32 * watch.blocks.len();
@@ -112,10 +122,11 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
             break;
         }
         left -= 1;
-        strike(group, (&event, h), law, outcome);
+        strike(group, &event, law, outcome);
         for slot in bodies {
             let fixed = group.velocities[slot as usize].is_fixed();
             watch.seen[slot as usize] += u32::from(!fixed);
+            watch.last[slot as usize] = if fixed { 0.0 } else { event.time };
         }
         for slot in bodies {
             if group.velocities[slot as usize].is_fixed() {
@@ -123,7 +134,7 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
             }
             let [from, to] = [0, 1].map(|k| watch.first[slot as usize + k] as usize);
             for k in &watch.of_slot[from..to] {
-                queue.extend(next_event(group, &watch, *k, ([event.time, h / 2.0], h)));
+                queue.extend(next_event(group, (&watch, around), *k, [event.time, h / 2.0]));
             }
         }
     }
@@ -149,34 +160,41 @@ fn set_resting(group: &mut Group, k: usize, h: Real) {
     }
 }
 
-/// The first impact of a block between two times of a substep of length h.
 fn next_event(
-    group: &Group,
-    watch: &Watch,
+    group: &mut Group,
+    (watch, around): (&Watch, &dyn Surroundings),
     block: u32,
-    ([from, to], h): ([Real; 2], Real),
+    [from, to]: [Real; 2],
 ) -> Option<Event> {
-    let bodies = group.blocks[block as usize].bodies;
-    let arrival = pair(group, block as usize, h).first_arrival(from, to)?;
+    let k = block as usize;
+    let bodies = group.blocks[k].bodies;
+    let arrival = if group.links[k].watched == Watched::Swift {
+        let (arrival, manifold) = pair(group, k).first_meeting([from, to], around)?;
+        group.links[k].manifold = manifold;
+        arrival
+    } else {
+        pair(group, k).first_arrival(from, to)?
+    };
     let stamp = watch.stamp(bodies);
     Some(Event { time: arrival.time, approach: arrival.approach, block, stamp })
 }
 
-fn pair(group: &Group, k: usize, h: Real) -> Pair<'_> {
+fn pair(group: &Group, k: usize) -> Pair<'_> {
     let [a, b] = group.blocks[k].bodies.map(|slot| slot as usize);
     Pair {
         link: &group.links[k],
         places: [&group.places[a], &group.places[b]],
         velocities: [&group.velocities[a], &group.velocities[b]],
-        h,
+        angles: [group.angles[a], group.angles[b]],
+        h: group.h,
     }
 }
 
 /// One impact.
-fn strike(group: &mut Group, (event, h): (&Event, Real), law: ImpactLaw, outcome: &mut Outcome) {
+fn strike(group: &mut Group, event: &Event, law: ImpactLaw, outcome: &mut Outcome) {
     let k = event.block as usize;
     let (link, time) = (group.links[k], event.time);
-    let pair = pair(group, k, h);
+    let pair = pair(group, k);
     let (places, velocities) = (pair.places_at(time), pair.velocities_at(time));
     let bodies = [&velocities[0], &velocities[1]];
     let at = moved(&link.manifold, link.apart, [&places[0], &places[1]]);
@@ -187,8 +205,9 @@ fn strike(group: &mut Group, (event, h): (&Event, Real), law: ImpactLaw, outcome
     let mut u = block.velocity(bodies);
     u[2] -= block.target[2];
     let mut restitution = [0.0; 2];
+    let touching = if link.watched == Watched::Swift { 4.0 * NEAR } else { 1e-9 };
     for p in 0..2 {
-        let touches = p < link.manifold.count && at.gap[p] <= 1e-9 * link.width;
+        let touches = p < link.manifold.count && at.gap[p] <= touching * link.width;
         block.on[p] = touches && u[p] < 0.0;
         restitution[p] = if -u[p] > link.resting[p] { link.restitution } else { 0.0 };
     }
@@ -197,7 +216,7 @@ fn strike(group: &mut Group, (event, h): (&Event, Real), law: ImpactLaw, outcome
     outcome.impacts += 1;
     outcome.ledger.dissipated -= law::gain(&block, &u, &impulse);
     if group.driven {
-        let given = super::group::driving_work(&block, &impulse, bodies);
+        let given = super::group::driving_work(&block, (&impulse, link.tangent_speed), bodies);
         outcome.ledger.work += given;
     }
     let link = &mut group.links[k];
@@ -213,12 +232,14 @@ fn strike(group: &mut Group, (event, h): (&Event, Real), law: ImpactLaw, outcome
     }
 }
 
-/// Takes the geometry of the middle anew where an impact moved it.
+/// Takes the geometry anew where an impact moved it: that of the middle, or of the last impact if it came after,
+/// because the path that the bodies take from there was not theirs before.
 fn place_struck(group: &mut Group, watch: &Watch) {
     for k in 0..group.blocks.len() {
-        let struck = |slot: &u32| watch.seen[*slot as usize] > 0;
-        if group.blocks[k].bodies.iter().any(struck) {
-            super::place_block(group, k);
+        let slots = group.blocks[k].bodies.map(|slot| slot as usize);
+        if slots.iter().any(|slot| watch.seen[*slot] > 0) {
+            let time = slots.map(|slot| watch.last[slot]);
+            super::place_block(group, k, time[0].max(time[1]).max(0.0));
         }
     }
 }

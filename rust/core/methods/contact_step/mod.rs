@@ -15,6 +15,7 @@ mod path;
 mod project;
 
 use crate::body::ImpactLaw;
+use crate::collision::{Manifold, Sweep};
 use crate::constraints::Place;
 use crate::constraints::contact::{Block, curvature, moved};
 use crate::error::Result;
@@ -22,7 +23,7 @@ use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
-pub use group::{Group, Link, Mass};
+pub use group::{Group, Link, Mass, Watched};
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {
@@ -37,6 +38,10 @@ pub trait Surroundings {
     /// # Errors
     /// Motion that the flow of the drag cannot give.
     fn drift(&mut self, h: Real, group: &mut Group) -> Result<Real>;
+
+    /// First fraction of the ways of the two bodies of a contact at which their shapes are within `target` (m) of
+    /// one another, and the manifold there. The ways are counted from A's centre of mass at the start of the step.
+    fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)>;
 }
 
 /// How hard to try.
@@ -59,6 +64,8 @@ pub struct Outcome {
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
     pub residual: Real,
+    /// A body was thrown so far that it may have met what was not looked for.
+    pub escaped: bool,
 }
 
 /// Moves a group through a span.
@@ -78,11 +85,12 @@ pub fn run(
         around.accelerate(span.time(k) + h / 2.0, group)?;
         place_blocks(group);
         kick(group, h / 2.0);
-        impacts::resolve(group, h, settings.law, &mut outcome);
+        impacts::resolve(group, h, settings.law, (around, &mut outcome));
         kick(group, h / 2.0);
         solve_rows(group, h, settings, &mut outcome);
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         outcome.ledger.correction_work += project::apart(group, h);
+        outcome.escaped |= !group.watch.blocks.is_empty() && group.has_escaped();
     }
     Ok(outcome)
 }
@@ -90,24 +98,41 @@ pub fn run(
 /// Geometry of the midpoint.
 fn place_blocks(group: &mut Group) {
     for k in 0..group.blocks.len() {
-        place_block(group, k);
+        place_block(group, k, 0.0);
     }
 }
 
-fn place_block(group: &mut Group, k: usize) {
+/// Geometry of block k at a time from the middle.
+fn place_block(group: &mut Group, k: usize, time: Real) {
     let Group { velocities, places, blocks, links, .. } = group;
     let (block, link) = (&mut blocks[k], &mut links[k]);
     let [a, b] = block.bodies.map(|slot| slot as usize);
-    let bodies = [&places[a], &places[b]];
+    let later: [Place; 2];
+    let bodies = if time > 0.0 {
+        later = [a, b].map(|slot| {
+            let mut place = places[slot];
+            place.drift(&velocities[slot].twist, time);
+            place
+        });
+        [&later[0], &later[1]]
+    } else {
+        [&places[a], &places[b]]
+    };
     let at = moved(&link.manifold, link.apart, bodies);
     block.place(&link.manifold, &at, [&velocities[a], &velocities[b]]);
+    block.target[2] = link.tangent_speed;
+    link.turning = 0.0;
+    let load = block.impulse[0] + block.impulse[1];
     for p in 0..link.manifold.count {
-        link.curvature[p] = if block.impulse[p] > 0.0 {
+        link.curvature[p] = 0.0;
+        if block.impulse[p] > 0.0 {
             let twists = [&velocities[a].twist, &velocities[b].twist];
-            curvature(&link.manifold, &at, (link.apart, p), bodies, twists)
-        } else {
-            0.0
-        };
+            let [normal, tangent] = curvature(&link.manifold, &at, (link.apart, p), bodies, twists);
+            link.curvature[p] = normal;
+            // Of several points the friction acts as if at the one where their load is.
+            let share = if block.sliding { 0.0 } else { block.impulse[p] / load };
+            link.turning += share * tangent;
+        }
     }
 }
 
@@ -132,6 +157,8 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
             let (target, on) = row(link, (block, k), along[k], h);
             (block.target[k], block.on[k]) = (target, on);
         }
+        // What sticks obeys J(v⁻ + v⁺) = 0 along the surface as well, so that a rod that pivots keeps its energy.
+        block.target[2] = link.tangent_speed - 0.5 * h * link.turning;
         block.prepare(bodies);
         fastest = fastest.max(kick_along(block, [&places[a], &places[b]], h));
     }
@@ -167,7 +194,7 @@ fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real,
         return (-0.5 * bend, true);
     }
     // What arrives by an impact is not braked before, and what passes by not at all.
-    (-gap / h, !(link.watched && along < -link.resting[k]))
+    (-gap / h, !(link.watched != Watched::No && along < -link.resting[k]))
 }
 
 impl std::ops::AddAssign for Twist {
