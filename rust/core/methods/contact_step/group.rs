@@ -50,6 +50,10 @@ pub struct Link {
     pub place: u32,
     /// J̇v of points that carry a load (m/s²).
     pub curvature: [Real; 2],
+    /// The same along the surface where the load sticks to it.
+    pub turning: Real,
+    /// Tangential velocity (m/s) of B against A at which nothing slides.
+    pub tangent_speed: Real,
     /// Approach (m/s) up to which a contact rests and does not bounce: what the substep's kicks give it.
     pub resting: [Real; 2],
     /// Whether arrivals are looked for.
@@ -88,6 +92,8 @@ pub struct Group {
     pub links: Vec<Link>,
     /// Some surface is driven: a kinematic body or a conveyor.
     pub driven: bool,
+    /// Length of the substep (s).
+    pub(super) h: Real,
     /// Velocities before the rows.
     pub(super) free: Vec<Twist>,
     /// Where impacts may come.
@@ -138,11 +144,11 @@ impl Group {
     }
 
     fn driving_work(&self) -> Real {
-        let work = |block: &Block| {
+        let work = |(block, link): (&Block, &Link)| {
             let bodies = block.bodies.map(|slot| &self.velocities[slot as usize]);
-            driving_work(block, &block.impulse, bodies)
+            driving_work(block, (&block.impulse, link.tangent_speed), bodies)
         };
-        self.blocks.iter().map(work).sum()
+        self.blocks.iter().zip(&self.links).map(work).sum()
     }
 
     /// Adds a contact, watched where it bounces or is swift.
@@ -156,9 +162,13 @@ impl Group {
 }
 
 /// Work (J) that bodies with given motion and conveyors do through the impulses of a block.
-pub(super) fn driving_work(block: &Block, impulse: &[Real; 3], [a, b]: [&Velocity; 2]) -> Real {
+pub(super) fn driving_work(
+    block: &Block,
+    (impulse, tangent_speed): (&[Real; 3], Real),
+    [a, b]: [&Velocity; 2],
+) -> Real {
     let (n, t) = (block.normal, block.tangent());
-    let mut work = impulse[2] * block.target[2];
+    let mut work = impulse[2] * tangent_speed;
     for (k, direction) in [n, n, t].into_iter().enumerate() {
         let [arm_a, arm_b] = block.arms[k];
         // On the other body acts p along the direction; at the speed of the surface it does this work.

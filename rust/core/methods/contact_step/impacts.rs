@@ -118,6 +118,7 @@ pub fn resolve(
     }
     let mut watch = std::mem::take(&mut group.watch);
     watch.start(group, -h / 2.0);
+    group.h = h;
     for k in &watch.blocks {
         set_resting(group, *k as usize, h);
         group.links[*k as usize].met = false;
@@ -203,7 +204,7 @@ fn look_again(group: &mut Group, watch: &Watch, k: usize, around: &dyn Surroundi
     }
     let block = &mut group.blocks[k];
     (block.impulse, block.count) = ([0.0; 3], link.manifold.count as u8);
-    super::place_block(group, k);
+    super::place_block(group, k, now);
 }
 
 /// The approach that the kicks of the substep give a contact by themselves, and rounding.
@@ -253,6 +254,7 @@ fn pair(group: &Group, k: usize, kicked: bool) -> Pair<'_> {
         velocities: [&group.velocities[a], &group.velocities[b]],
         angles: [group.angles[a], group.angles[b]],
         kicked,
+        h: group.h,
     }
 }
 
@@ -292,7 +294,7 @@ fn strike(
     outcome.impacts += 1;
     outcome.ledger.dissipated -= law::gain(&block, &u, &impulse);
     if group.driven {
-        let given = super::group::driving_work(&block, &impulse, bodies);
+        let given = super::group::driving_work(&block, (&impulse, link.tangent_speed), bodies);
         outcome.ledger.work += given;
     }
     let link = &mut group.links[k];
@@ -308,12 +310,14 @@ fn strike(
     }
 }
 
-/// Takes the geometry of the middle anew where an impact moved it.
+/// Takes the geometry anew where an impact moved it: that of the middle, or of the last impact if it came after,
+/// because the path that the bodies take from there was not theirs before.
 fn place_struck(group: &mut Group, watch: &Watch) {
     for k in 0..group.blocks.len() {
-        let struck = |slot: &u32| watch.seen[*slot as usize] > 0;
-        if group.blocks[k].bodies.iter().any(struck) {
-            super::place_block(group, k);
+        let slots = group.blocks[k].bodies.map(|slot| slot as usize);
+        if slots.iter().any(|slot| watch.seen[*slot] > 0) {
+            let time = slots.map(|slot| watch.since[slot]);
+            super::place_block(group, k, time[0].max(time[1]).max(0.0));
         }
     }
 }

@@ -103,24 +103,41 @@ pub fn run(
 /// Geometry of the midpoint.
 fn place_blocks(group: &mut Group) {
     for k in 0..group.blocks.len() {
-        place_block(group, k);
+        place_block(group, k, 0.0);
     }
 }
 
-fn place_block(group: &mut Group, k: usize) {
+/// Geometry of block k at a time from the middle.
+fn place_block(group: &mut Group, k: usize, time: Real) {
     let Group { velocities, places, blocks, links, .. } = group;
     let (block, link) = (&mut blocks[k], &mut links[k]);
     let [a, b] = block.bodies.map(|slot| slot as usize);
-    let bodies = [&places[a], &places[b]];
+    let later: [Place; 2];
+    let bodies = if time > 0.0 {
+        later = [a, b].map(|slot| {
+            let mut place = places[slot];
+            place.drift(&velocities[slot].twist, time);
+            place
+        });
+        [&later[0], &later[1]]
+    } else {
+        [&places[a], &places[b]]
+    };
     let at = moved(&link.manifold, link.apart, bodies);
     block.place(&link.manifold, &at, [&velocities[a], &velocities[b]]);
+    block.target[2] = link.tangent_speed;
+    link.turning = 0.0;
+    let load = block.impulse[0] + block.impulse[1];
     for p in 0..link.manifold.count {
-        link.curvature[p] = if block.impulse[p] > 0.0 {
+        link.curvature[p] = 0.0;
+        if block.impulse[p] > 0.0 {
             let twists = [&velocities[a].twist, &velocities[b].twist];
-            curvature(&link.manifold, &at, (link.apart, p), bodies, twists)
-        } else {
-            0.0
-        };
+            let [normal, tangent] = curvature(&link.manifold, &at, (link.apart, p), bodies, twists);
+            link.curvature[p] = normal;
+            // Of several points the friction acts as if at the one where their load is.
+            let share = if block.sliding { 0.0 } else { block.impulse[p] / load };
+            link.turning += share * tangent;
+        }
     }
 }
 
@@ -145,6 +162,8 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
             let (target, on) = row(link, (block, k), along[k], h);
             (block.target[k], block.on[k]) = (target, on);
         }
+        // What sticks obeys J(v⁻ + v⁺) = 0 along the surface as well, so that a rod that pivots keeps its energy.
+        block.target[2] = link.tangent_speed - 0.5 * h * link.turning;
         block.prepare(bodies);
         fastest = fastest.max(kick_along(block, [&places[a], &places[b]], h));
     }

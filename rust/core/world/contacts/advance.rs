@@ -119,6 +119,8 @@ impl World {
                     width,
                     place,
                     curvature: [0.0; 2],
+                    turning: 0.0,
+                    tangent_speed: near.touch.tangent_speed,
                     resting: [0.0; 2],
                     watched: match (swift, near.touch.restitution > 0.0) {
                         (true, _) => Watched::Swift,
