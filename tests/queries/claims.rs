@@ -3,7 +3,7 @@
 use culbuto::body::{BodyKind, Filter, Role};
 use culbuto::math::{Pose, Real, Vec2, vec2};
 use culbuto::shapes::Shape;
-use culbuto::world::{QueryFilter, ShapeId, distance_between};
+use culbuto::world::{Column, QueryFilter, ShapeId, distance_between};
 use culbuto::{BodyDef, BodyHandle, World};
 use proptest::prelude::*;
 
@@ -184,4 +184,29 @@ fn shapes_are_apart_by_what_lies_between_them() {
         world.add_body(BodyDef { position: vec2(0.75, 0.0), ..BodyDef::new(disk) }).unwrap();
     assert_eq!(world.distance(point, ball).unwrap().distance, 1.5);
     assert_eq!(world.distance(ball, other).unwrap().distance, -0.25);
+}
+
+#[test]
+fn places_written_as_columns_are_places_set_one_by_one() {
+    let mut worlds = [(); 2].map(|()| {
+        let mut world = World::new(vec2(0.0, -10.0)).unwrap();
+        let floor = Shape::rectangle(4.0, 1.0).unwrap();
+        let floor = world.add_body(fixed(floor, vec2(0.0, -100.0))).unwrap();
+        let ball =
+            BodyDef { position: vec2(0.0, 1.0), ..BodyDef::new(Shape::circle(0.5).unwrap()) };
+        let ball = world.add_body(ball).unwrap();
+        world.steps(0.01, 1).unwrap();
+        (world, floor, ball)
+    });
+    let at = worlds[0].0.body(worlds[0].2).unwrap().position();
+    let (one, floor, ball) = &mut worlds[0];
+    one.body_mut(*floor).unwrap().set_position(vec2(0.0, -0.5)).unwrap();
+    one.body_mut(*ball).unwrap().set_position(at).unwrap();
+    worlds[1].0.write_column(Column::Positions, &[0.0, -0.5, at.x, at.y]).unwrap();
+    let [one, other] = worlds.map(|(mut world, _, ball)| {
+        world.steps(0.01, 100).unwrap();
+        world.body(ball).unwrap().position()
+    });
+    assert_eq!(one, other);
+    assert!((one.y - 0.5).abs() < 1e-6, "it fell through the floor: {one}");
 }

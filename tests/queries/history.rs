@@ -148,18 +148,24 @@ pub fn happen(world: &mut World, event: &Event, ask: impl FnOnce(&World)) {
     }
 }
 
-/// A world after events, with queries on the way.
+/// A world after events, with queries now and then on the way, or before each event.
 pub fn worlds() -> impl Strategy<Value = World> {
-    (prop::collection::vec(defs(), 0..8), events()).prop_map(|(defs, events)| {
-        let mut world = World::default();
-        for def in defs {
-            world.add_body(def).unwrap();
-        }
-        for event in &events {
-            happen(&mut world, event, |world| {
-                world.cast_ray(vec2(0.0, 0.0), vec2(1.0, 0.0), &Default::default()).unwrap();
-            });
-        }
-        world
-    })
+    let ask = |world: &World| {
+        world.cast_ray(vec2(0.0, 0.0), vec2(1.0, 0.0), &Default::default()).unwrap();
+    };
+    (prop::collection::vec(defs(), 0..8), events(), any::<bool>()).prop_map(
+        move |(defs, events, often)| {
+            let mut world = World::default();
+            for def in defs {
+                world.add_body(def).unwrap();
+            }
+            for event in &events {
+                if often {
+                    ask(&world);
+                }
+                happen(&mut world, event, ask);
+            }
+            world
+        },
+    )
 }

@@ -148,14 +148,14 @@ impl Placed {
         check::finite("angle", pose.angle)?;
         let center = shape.centroid();
         let all = colliders(0, &[Part::from(shape.clone())], center);
-        let pieces = all.into_iter().map(|collider| collider.geometry).collect();
+        let pieces: Vec<_> = all.into_iter().map(|collider| collider.geometry).collect();
         let pose = Pose::new(pose.apply(center), pose.angle);
         Ok(Self { bounds: bounds(&pieces, &Frame::of(&pose)), pieces, pose })
     }
 }
 
 /// The box around all pieces.
-fn bounds(pieces: &Vec<Geometry>, frame: &Frame) -> Aabb {
+fn bounds(pieces: &[Geometry], frame: &Frame) -> Aabb {
     let boxes = pieces.iter().map(|piece| piece.bounds_at(frame));
     // OK because shapes have pieces; the place alone stands for what cannot be.
     let none = Aabb { min: frame.position, max: frame.position };
