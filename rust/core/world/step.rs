@@ -147,6 +147,7 @@ impl World {
     /// Runs `work`; if it fails, the world is put back as it was.
     pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         self.planned();
+        self.strays.take();
         if let Some(plan) = &self.plan {
             self.scratch.backup.save(&self.state, plan, self.applied);
         }

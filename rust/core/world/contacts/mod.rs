@@ -3,9 +3,11 @@
 mod advance;
 mod detect;
 mod near;
+mod strays;
 
 pub(super) use advance::ContactScratch;
 pub(super) use near::{Near, Patch};
+pub(super) use strays::Strays;
 
 use serde::{Deserialize, Serialize};
 
@@ -108,8 +110,14 @@ impl Contacts {
 
     /// Tells that the place of a body was set.
     pub fn touch(&mut self, body: usize) {
-        if self.has_shapes(body) {
-            self.moved.push(body as u32);
+        if !self.has_shapes(body) {
+            return;
+        }
+        self.moved.push(body as u32);
+        // Worlds that are set and never stepped must not gather names without end.
+        if self.moved.len() > 2 * self.of_body.len() {
+            self.moved.sort_unstable();
+            self.moved.dedup();
         }
     }
 
