@@ -2,12 +2,15 @@
 //! line and Python all use this one copy.
 
 mod drag;
+mod extremes;
 pub mod file;
+mod gauge;
 mod matter;
 mod newton;
 mod orbits;
 mod reversal;
 mod rotation;
+mod stacks;
 
 pub use file::SceneFile;
 
@@ -116,7 +119,26 @@ pub static CATALOGUE: &[&Scene] = &[
     &rotation::VARYING_TORQUE,
     &matter::POLYGONS,
     &reversal::THREE_BODIES,
+    &stacks::TEN,
+    &stacks::TWENTY,
+    &stacks::PYRAMID,
+    &extremes::GRAVITY,
+    &extremes::SIZES,
+    &extremes::SLIVERS,
+    &extremes::SPIN,
+    &extremes::OFFSET,
+    &extremes::CROWD,
+    &extremes::BAD_OUTLINES,
+    &extremes::STEPS,
+    &extremes::BAD_MATTER,
+    &extremes::GRAZING,
+    &extremes::REPEATS,
+    &extremes::RANDOM,
 ];
+
+/// Scenes that take minutes; `make test-full` runs them.
+pub static LONG: &[&Scene] =
+    &[&stacks::LONG[0], &stacks::LONG[1], &stacks::LONG[2], &extremes::ALL_RANDOM];
 
 /// The scene of this id or name, whatever the case.
 ///
