@@ -13,7 +13,7 @@ pub(super) struct Seen {
     pub overlap: Real,
     /// Largest E − E₀ − work − correction_work.
     pub gained: Real,
-    /// Largest fall of what is dissipated from a look to the next.
+    /// Most that contacts have given instead of taken: largest fall of what is dissipated below its start.
     pub returned: Real,
     /// Largest change of E − work − correction_work + dissipated.
     pub unbalanced: Real,
@@ -70,7 +70,6 @@ impl Gauge {
         seen.gained = worse(seen.gained, (now - self.energy) / *scale);
         seen.returned = worse(seen.returned, (self.dissipated - energy.dissipated) / *scale);
         seen.unbalanced = worse(seen.unbalanced, (energy.balance() - self.balance).abs() / *scale);
-        self.dissipated = energy.dissipated;
         Ok(())
     }
 
@@ -113,7 +112,7 @@ impl Gauge {
     pub fn laws(&self, of: &str) -> [Number; 3] {
         [
             at_most(format!("energy gained, {of}"), self.seen.gained, 1e-6),
-            at_most(format!("dissipation undone, {of}"), self.seen.returned, 1e-9),
+            at_most(format!("energy given by contacts, {of}"), self.seen.returned, 1e-9),
             at_most(format!("change of the energy balance, {of}"), self.seen.unbalanced, 1e-6),
         ]
     }

@@ -137,8 +137,21 @@ pub static CATALOGUE: &[&Scene] = &[
 ];
 
 /// Scenes that take minutes; `make test-full` runs them.
-pub static LONG: &[&Scene] =
-    &[&stacks::LONG[0], &stacks::LONG[1], &stacks::LONG[2], &extremes::ALL_RANDOM];
+pub static LONG: &[&Scene] = &[
+    &stacks::LONG[0],
+    &stacks::LONG[1],
+    &stacks::LONG[2],
+    &extremes::ALL_RANDOM[0],
+    &extremes::ALL_RANDOM[1],
+    &extremes::ALL_RANDOM[2],
+    &extremes::ALL_RANDOM[3],
+    &extremes::ALL_RANDOM[4],
+    &extremes::ALL_RANDOM[5],
+    &extremes::ALL_RANDOM[6],
+    &extremes::ALL_RANDOM[7],
+    &extremes::ALL_RANDOM[8],
+    &extremes::ALL_RANDOM[9],
+];
 
 /// The scene of this id or name, whatever the case.
 ///

@@ -13,7 +13,7 @@ pub static CROWD: Scene = Scene {
     name: "crowd",
     title: "50 bodies at one point",
     about: "Disks of radius 0.1, or boxes of 0.2, all put at the same point, without gravity, at rest. They part by corrections of their \
-        places: in 20 s none overlaps by more than 10⁻³ of its width, and no speed above 10⁻⁶ m/s comes of it. Boxes turned \
+        places: in 60 s none overlaps by more than 10⁻³ of its width, and no speed above 10⁻⁶ m/s comes of it. Boxes turned \
         at random, too.",
     answer: Answer::Numbers(numbers),
     checks: &[],
@@ -34,7 +34,7 @@ fn numbers() -> Result<Vec<Number>> {
         let mut gauge = Gauge::new(&world, 1.0)?;
         let dt = 1.0 / 60.0;
         let mut fastest: Real = 0.0;
-        for _ in 0..40 {
+        for _ in 0..120 {
             world.steps(dt, 30)?;
             gauge.seen.overlap = 0.0;
             gauge.settle(&rest);
@@ -50,7 +50,7 @@ fn numbers() -> Result<Vec<Number>> {
         numbers.push(at_most(format!("fastest (m/s), {name}"), fastest, 1e-6));
         let near = (world.momentum().norm(), seen.drift);
         numbers.push(at_most(format!("momentum (kg·m/s), {name}"), near.0, 1e-12));
-        numbers.push(at_most(format!("farthest from the start (m), {name}"), near.1, 3.0));
+        numbers.push(at_most(format!("farthest from the start (m), {name}"), near.1, 5.0));
     }
     Ok(numbers)
 }

@@ -13,7 +13,7 @@ pub static SLIVERS: Scene = Scene {
     name: "needles_and_slivers",
     title: "Needles of 10³ : 1 and 10⁶ : 1 and triangles with an angle of 10⁻⁴ rad",
     about: "Eight of 1 m fall on the ground and on one another from 0.3 m on, turned each another way, some with restitution, \
-        and lie there for 5 s: no energy from nothing, at rest no overlap beyond 10⁻³ of the width.",
+        and lie there for 20 s: no energy from nothing, at rest no overlap beyond 10⁻³ of the width.",
     answer: Answer::Numbers(numbers),
     checks: &[],
 };
@@ -55,6 +55,6 @@ fn fall(outline: &[Vec2], restitution: Real, count: u8) -> Result<Gauge> {
         })?;
     }
     let mut gauge = Gauge::new(&world, 1.0)?;
-    gauge.run(&mut world, 1.0 / 60.0, 300, 1)?;
+    gauge.run(&mut world, 1.0 / 60.0, 1200, 1)?;
     Ok(gauge)
 }

@@ -33,7 +33,7 @@ pub static PYRAMID: Scene = Scene {
     id: "K9",
     name: "pyramid",
     title: "Pyramid of boxes, 40 at the base",
-    answer: Answer::Numbers(|| stand(pyramid, 1.5, 15)),
+    answer: Answer::Numbers(|| stand(pyramid, 5.0, 20)),
     ..TEN
 };
 

@@ -109,6 +109,7 @@ impl World {
                     width,
                     place,
                     curvature: [0.0; 2],
+                    passes: [false; 2],
                     resting: [0.0; 2],
                     watched: near.touch.restitution > 0.0 || swift,
                     impact: 0.0,
