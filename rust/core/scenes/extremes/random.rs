@@ -13,7 +13,7 @@ use crate::scenes::{Answer, Number, Scene};
 use crate::shapes::Shape;
 use crate::world::World;
 
-const ABOUT: &str = "Boxes, disks, capsules, regular polygons and triangles, 5 to 20 of them, 0.2 to 1 m large, 1 : 100 in density, thrown \
+const ABOUT: &str = "Boxes, disks, capsules, regular polygons and triangles, 5 to 12 of them, 0.2 to 1 m large, 1 : 100 in density, thrown \
     into a bin of 8 m by walls of 20 m; friction 0 to 1, restitution 0 to 1, a belt as the floor of every third, steps of 1/30, \
     1/60 or 1/120 s. E ≤ E₀ + work + correction_work + 10⁻⁶, as a part of E₀ and of what a fall through 1 m gives; what is \
     dissipated never comes back, the books balance, and nothing leaves the bin.";
@@ -118,7 +118,7 @@ fn bin(seed: u32) -> Result<(World, Real)> {
         })?;
     }
     let columns = 4;
-    for k in 0..5 + dice.below(16) {
+    for k in 0..5 + dice.below(8) {
         let (column, row) = ((k % columns) as Real, (k / columns) as Real);
         world.add_body(BodyDef {
             position: vec2(1.5 * (column - 1.5), 1.0 + 1.5 * row),
