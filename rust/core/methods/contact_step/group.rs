@@ -48,12 +48,14 @@ pub struct Link {
     pub width: Real,
     /// Where the contact is kept.
     pub place: u32,
-    /// J̇v of points that carry a load (m/s²).
+    /// J̇v of points that carry a load or are apart (m/s²).
     pub curvature: [Real; 2],
     /// The same along the surface where the load sticks to it.
     pub turning: Real,
     /// Tangential velocity (m/s) of B against A at which nothing slides.
     pub tangent_speed: Real,
+    /// Corners that come nearer and yet go past one another.
+    pub passes: [bool; 2],
     /// Approach (m/s) up to which a contact rests and does not bounce: what the substep's kicks give it.
     pub resting: [Real; 2],
     /// Whether arrivals are looked for.

@@ -128,14 +128,16 @@ fn place_block(group: &mut Group, k: usize, time: Real) {
     block.target[2] = link.tangent_speed;
     link.turning = 0.0;
     let load = block.impulse[0] + block.impulse[1];
+    let twists = [&velocities[a].twist, &velocities[b].twist];
     for p in 0..link.manifold.count {
+        let (loaded, apart) = (block.impulse[p] > 0.0, at.gap[p] > 0.0);
+        link.passes[p] = !loaded && apart && path::passes(&link.manifold, &at, p, twists);
         link.curvature[p] = 0.0;
-        if block.impulse[p] > 0.0 {
-            let twists = [&velocities[a].twist, &velocities[b].twist];
+        if loaded || apart {
             let [normal, tangent] = curvature(&link.manifold, &at, (link.apart, p), bodies, twists);
             link.curvature[p] = normal;
             // Of several points the friction acts as if at the one where their load is.
-            let share = if block.sliding { 0.0 } else { block.impulse[p] / load };
+            let share = if block.sliding || !loaded { 0.0 } else { block.impulse[p] / load };
             link.turning += share * tangent;
         }
     }
@@ -191,18 +193,22 @@ fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
 /// Target of a normal row, and whether it takes part.
 ///
 /// Touching: v ≥ 0, or along a curve v ≥ −½h·J̇v, which with the velocity before makes J(v⁻ + v⁺) = 0. Not yet
-/// touching: v ≥ −s/h. A gap below what the curve itself opens in half a step counts as touching.
+/// touching: s + vh + ½J̇v·h² ≥ 0 in the next middle, where the curve opens. Under a load, a gap below what the curve
+/// itself opens in half a step counts as touching.
 fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real, bool) {
     if link.apart_now {
         return (0.0, false);
     }
     let gap = block.gap[k];
     let bend = link.curvature[k] * h;
-    if gap <= (bend * h).abs() {
-        return (-0.5 * bend, true);
+    let loaded = block.impulse[k] > 0.0;
+    if gap <= 0.0 || (loaded && gap <= (bend * h).abs()) {
+        return (if loaded { -0.5 * bend } else { 0.0 }, true);
     }
     // What arrives by an impact is not braked before, and what passes by not at all.
-    (-gap / h, !(link.watched != Watched::No && along < -link.resting[k]))
+    let arrives = link.watched != Watched::No && along < -link.resting[k];
+    let opening = if loaded { 0.0 } else { 0.5 * bend.max(0.0) };
+    (-gap / h - opening, !arrives && !link.passes[k])
 }
 
 impl std::ops::AddAssign for Twist {

@@ -179,3 +179,12 @@ fn on_face(manifold: &Manifold, at: &Moved, k: usize, link: &Link) -> bool {
     let margin = 1e-9 * link.width;
     place >= low - margin && place <= high + margin
 }
+
+/// Whether two corners, sharp or round, come nearer to one another and yet go past, on straight ways.
+pub fn passes(manifold: &Manifold, at: &Moved, k: usize, [va, vb]: [&Twist; 2]) -> bool {
+    let [on_a, on_b] = at.arms[k];
+    let rate = vb.at(on_b) - va.at(on_a);
+    let radii = manifold.radius_a + manifold.radius_b;
+    let aside = perp(at.normal).dot(&rate).abs();
+    manifold.normal == Normal::Between && (at.gap[k] + radii) * aside > radii * rate.norm()
+}

@@ -121,6 +121,7 @@ impl World {
                     curvature: [0.0; 2],
                     turning: 0.0,
                     tangent_speed: near.touch.tangent_speed,
+                    passes: [false; 2],
                     resting: [0.0; 2],
                     watched: match (swift, near.touch.restitution > 0.0) {
                         (true, _) => Watched::Swift,

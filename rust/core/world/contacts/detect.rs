@@ -51,7 +51,11 @@ impl Contacts {
             let mut width = Real::INFINITY;
             for proxy in &self.of_body[i] {
                 let collider = &self.entries[proxy.0 as usize].collider;
-                self.broad.update(*proxy, &swept(collider, &frame, motion, self.spread), margin(collider));
+                self.broad.update(
+                    *proxy,
+                    &swept(collider, &frame, motion, self.spread),
+                    margin(collider),
+                );
                 width = width.min(collider.width);
             }
             self.covered[i] = motion.0.norm().max(self.spread) + 0.5 * width;
