@@ -9,6 +9,7 @@ use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
+use crate::world::contacts::ContactBackup;
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -17,6 +18,8 @@ pub(super) struct Backup {
     moving: Vec<(usize, Pose, Twist)>,
     /// Forces for the next step; empty where there are none.
     applied: Vec<Wrench>,
+    /// Contacts, where the plan looks for any.
+    contacts: Option<ContactBackup>,
     clock: Clock,
     ledger: Ledger,
 }
@@ -270,6 +273,11 @@ impl Backup {
         if applied {
             self.applied.extend_from_slice(&bodies.applied);
         }
+        if plan.colliding.is_empty() {
+            self.contacts = None;
+        } else {
+            self.contacts.get_or_insert_default().save(&state.contacts);
+        }
         (self.clock, self.ledger) = (state.clock, state.ledger);
     }
 
@@ -281,6 +289,9 @@ impl Backup {
         let applied = !self.applied.is_empty();
         if applied {
             state.bodies.applied.clone_from(&self.applied);
+        }
+        if let Some(contacts) = &self.contacts {
+            contacts.restore(&mut state.contacts);
         }
         (state.clock, state.ledger) = (self.clock, self.ledger);
         applied

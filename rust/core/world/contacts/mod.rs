@@ -1,10 +1,12 @@
 //! Contacts of a world: the shapes in it, which of them are near one another, and what a contact remembers.
 
 mod advance;
+mod backup;
 mod detect;
 mod near;
 
 pub(super) use advance::ContactScratch;
+pub(super) use backup::ContactBackup;
 pub(super) use near::{Near, Patch};
 
 use serde::{Deserialize, Serialize};
@@ -111,9 +113,14 @@ impl Contacts {
 
     /// Derives what is not stored.
     pub fn rebuild(&mut self) {
-        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
+        self.map_pairs();
         self.frames.resize(self.of_body.len(), ORIGIN);
         self.touch_all();
+    }
+
+    /// Derives the map of pairs.
+    fn map_pairs(&mut self) {
+        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
     }
 
     fn insert(&mut self, bodies: &Bodies, body: usize) {
