@@ -43,6 +43,8 @@ pub struct Link {
     pub resting: [Real; 2],
     /// Arrivals are looked for: it bounces, or moves too far in a substep for its rows to foresee.
     pub watched: bool,
+    /// Points that are watched and stand beside the face, where there is nothing to touch.
+    pub beside: [bool; 2],
     /// Normal impulses of impacts in the step (N·s), for events.
     pub impact: Real,
     /// Fastest approach of an impact in the step (m/s).

@@ -102,6 +102,7 @@ fn place_block(group: &mut Group, k: usize) {
     let at = moved(&link.manifold, link.apart, bodies);
     block.place(&link.manifold, &at, [&velocities[a], &velocities[b]]);
     for p in 0..link.manifold.count {
+        link.beside[p] = link.watched && !path::on_face(&link.manifold, &at, p, link.width);
         link.curvature[p] = if block.impulse[p] > 0.0 {
             let twists = [&velocities[a].twist, &velocities[b].twist];
             curvature(&link.manifold, &at, (link.apart, p), bodies, twists)
@@ -163,11 +164,12 @@ fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
 fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real, bool) {
     let gap = block.gap[k];
     let bend = link.curvature[k] * h;
+    // What arrives by an impact is not braked before, and what passes by the face not at all.
+    let arrives = link.watched && along < -link.resting[k];
     if gap <= (bend * h).abs() {
-        return (-0.5 * bend, true);
+        return (-0.5 * bend, !(arrives && link.beside[k]));
     }
-    // What arrives by an impact is not braked before, and what passes by not at all.
-    (-gap / h, !(link.watched && along < -link.resting[k]))
+    (-gap / h, !arrives)
 }
 
 impl std::ops::AddAssign for Twist {

@@ -120,6 +120,7 @@ impl World {
                     curvature: [0.0; 2],
                     resting: [0.0; 2],
                     watched: near.touch.restitution > 0.0 || swift,
+                    beside: [false; 2],
                     impact: 0.0,
                     approach: 0.0,
                 },
