@@ -130,7 +130,8 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
         let bodies = [&velocities[a], &velocities[b]];
         let along = block.velocity(bodies);
         for k in 0..link.manifold.count {
-            let (target, on) = row(link, (block, k), along[k], h);
+            let (target, on) =
+                row(link, (block, k), (along[k], kicked(block, k, [&places[a], &places[b]], h)), h);
             (block.target[k], block.on[k]) = (target, on);
         }
         block.prepare(bodies);
@@ -157,17 +158,35 @@ fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
     block.normal.dot(&apart).abs() * h
 }
 
+/// A contact that persists leaves as fast as it came, but for the change of its curvature. One that should leave
+/// faster than this many times that does not persist: pushed so, it would gain energy.
+const PERSISTS: Real = 1.5;
+
+/// Velocity of row k that a kick of length h gives.
+fn kicked(block: &Block, k: usize, [a, b]: [&Place; 2], h: Real) -> Real {
+    let (a, b) = (&a.acceleration, &b.acceleration);
+    let spin = block.arms[k][1] * b.angular - block.arms[k][0] * a.angular;
+    (block.normal.dot(&(b.linear - a.linear)) + spin) * h
+}
+
 /// Target of a normal row, and whether it takes part.
 ///
 /// Touching: v ≥ 0, or along a curve v ≥ −½h·J̇v, which with the velocity before makes J(v⁻ + v⁺) = 0. Not yet
 /// touching: v ≥ −s/h. A gap below what the curve itself opens in half a step counts as touching.
-fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real, bool) {
+fn row(
+    link: &Link,
+    (block, k): (&Block, usize),
+    (along, kick): (Real, Real),
+    h: Real,
+) -> (Real, bool) {
     let gap = block.gap[k];
     let bend = link.curvature[k] * h;
     // What arrives by an impact is not braked before, and what passes by the face not at all.
     let arrives = link.watched && along < -link.resting[k];
     if gap <= (bend * h).abs() {
-        return (-0.5 * bend, !(arrives && link.beside[k]));
+        let (came, wanted) = ((kick - along).max(0.0), -0.5 * bend);
+        let target = if wanted > PERSISTS * came { came } else { wanted };
+        return (target, !(arrives && link.beside[k]));
     }
     (-gap / h, !arrives)
 }

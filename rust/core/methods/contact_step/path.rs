@@ -68,7 +68,8 @@ impl Pair<'_> {
             let (rate, bend) = self.rates(&at, k, (&places, &velocities));
             let gap = at.gap[k];
             if gap <= SAME * self.link.width && (step > 0 || gap <= 0.0) {
-                let arrives = -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link.width);
+                let arrives =
+                    -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link.width);
                 return arrives.then_some(Arrival { time, approach: -rate });
             }
             time += first_root(gap, rate, bend)?;

@@ -21,7 +21,7 @@ pub(in crate::world) struct ContactScratch {
     links: Vec<[u32; 2]>,
     /// Patches of the links.
     solid: Vec<u32>,
-    group: Group,
+    pub(super) group: Group,
     /// Slot of each body in the group at work; valid where the mark is the group's.
     slots: Vec<(u32, u32)>,
     mark: u32,

@@ -2,6 +2,8 @@
 
 mod advance;
 mod backup;
+#[cfg(test)]
+mod coulomb;
 mod detect;
 mod near;
 
