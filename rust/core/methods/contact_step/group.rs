@@ -66,6 +66,8 @@ pub struct Link {
     pub met: bool,
     /// It is apart in this substep: no row.
     pub apart_now: bool,
+    /// Points that are watched and stand beside the face, where there is nothing to touch.
+    pub beside: [bool; 2],
     /// Normal impulses of impacts in the step (N·s), for events.
     pub impact: Real,
     /// Fastest approach of an impact in the step (m/s).

@@ -119,7 +119,8 @@ impl Pair<'_> {
             let (rate, bend) = self.rates(manifold, &at, k, (&places, &velocities));
             let gap = at.gap[k];
             if gap <= SAME * self.link.width && (step > 0 || gap <= 0.0) {
-                let arrives = -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link);
+                let arrives =
+                    -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link.width);
                 return arrives.then_some(Arrival { time, approach: -rate });
             }
             time += first_root(gap, rate, bend)?;
@@ -169,14 +170,14 @@ fn first_root(gap: Real, rate: Real, bend: Real) -> Option<Real> {
 }
 
 /// Whether a point that arrives at the plane of a face meets the face.
-fn on_face(manifold: &Manifold, at: &Moved, k: usize, link: &Link) -> bool {
+pub(super) fn on_face(manifold: &Manifold, at: &Moved, k: usize, width: Real) -> bool {
     let along = perp(at.normal);
     let (place, [low, high]) = match manifold.normal {
         Normal::OnA(_) => (along.dot(&at.arms[k][0]), manifold.face),
         Normal::OnB(_) => (along.dot(&at.arms[k][1]), manifold.face),
         Normal::Between | Normal::Inside => return true,
     };
-    let margin = 1e-9 * link.width;
+    let margin = 1e-9 * width;
     place >= low - margin && place <= high + margin
 }
 

@@ -1,11 +1,15 @@
 //! Contacts of a world: the shapes in it, which of them are near one another, and what a contact remembers.
 
 mod advance;
+mod backup;
+#[cfg(test)]
+mod coulomb;
 mod detect;
 mod near;
 mod strays;
 
 pub(super) use advance::ContactScratch;
+pub(super) use backup::ContactBackup;
 pub(super) use near::{Near, Patch};
 pub(super) use strays::Strays;
 
@@ -131,10 +135,15 @@ impl Contacts {
 
     /// Derives what is not stored.
     pub fn rebuild(&mut self) {
-        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
+        self.map_pairs();
         self.frames.resize(self.of_body.len(), ORIGIN);
         self.covered.resize(self.of_body.len(), 0.0);
         self.touch_all();
+    }
+
+    /// Derives the map of pairs.
+    fn map_pairs(&mut self) {
+        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
     }
 
     fn insert(&mut self, bodies: &Bodies, body: usize) {
