@@ -12,6 +12,7 @@ mod stepper;
 
 pub use bodies::{BodyMut, BodyRef};
 pub use columns::Column;
+pub use contacts::{Contact, ContactEvent, ContactHooks, Events, PreSolve, ShapeView};
 pub use plan::Plan;
 pub use report::{StageTime, StepReport, Trajectory};
 pub use snapshot::Snapshot;
@@ -116,11 +117,13 @@ struct State {
 pub struct World {
     state: State,
     fields: Vec<Arc<dyn ForceField>>,
+    hooks: Option<Arc<dyn ContactHooks>>,
     method: &'static dyn Method,
     plan: Option<Plan>,
     /// Some body has a force for the next step.
     applied: bool,
     report: StepReport,
+    events: Events,
     scratch: WorldScratch,
 }
 
@@ -167,10 +170,12 @@ impl World {
         Self {
             state,
             fields,
+            hooks: None,
             method,
             plan: None,
             applied,
             report: StepReport::default(),
+            events: Events::default(),
             scratch: WorldScratch::default(),
         }
     }

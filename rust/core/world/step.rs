@@ -9,6 +9,7 @@ use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
+use crate::world::contacts::Change;
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -19,6 +20,8 @@ pub(super) struct Backup {
     applied: Vec<Wrench>,
     clock: Clock,
     ledger: Ledger,
+    /// What began or ended to touch and is not told yet.
+    changes: Vec<Change>,
 }
 
 impl World {
@@ -64,17 +67,26 @@ impl World {
             Ok(())
         })?;
         if self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty()) {
-            self.stage("detect", |world| {
-                world.detect(dt);
-                Ok(())
-            })?;
+            self.stage("detect", |world| world.detect(dt))?;
             self.stage("islands", |world| {
                 world.find_islands();
                 Ok(())
             })?;
         }
         self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+        if self.notices() {
+            self.stage("events", |world| {
+                world.notice();
+                Ok(())
+            })?;
+        }
         self.stage("report", |world| world.finish(dt))
+    }
+
+    /// Whether something can begin or end to touch in a step.
+    fn notices(&self) -> bool {
+        let colliding = self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty());
+        colliding || self.state.contacts.touching.changed()
     }
 
     /// Runs a stage, timed if timing is on.
@@ -99,10 +111,12 @@ impl World {
             self.scratch.backup.save(&self.state, plan, self.applied);
         }
         let report = std::mem::take(&mut self.report);
+        self.events.clear();
         let result = work(self);
         if result.is_err() {
             self.applied = self.scratch.backup.restore(&mut self.state);
             self.report = report;
+            self.events.clear();
         }
         result
     }
@@ -271,6 +285,8 @@ impl Backup {
             self.applied.extend_from_slice(&bodies.applied);
         }
         (self.clock, self.ledger) = (state.clock, state.ledger);
+        self.changes.clear();
+        self.changes.extend_from_slice(state.contacts.touching.changes());
     }
 
     /// Puts the state back, and says whether forces wait for the next step.
@@ -283,6 +299,8 @@ impl Backup {
             state.bodies.applied.clone_from(&self.applied);
         }
         (state.clock, state.ledger) = (self.clock, self.ledger);
+        state.contacts.touching.set_changes(&self.changes);
+        state.contacts.retell(state.bodies.handles());
         applied
     }
 }

@@ -22,7 +22,7 @@ use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
-pub use group::{Group, Link, Mass};
+pub use group::{Group, Hit, Link, Mass};
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {
@@ -78,6 +78,7 @@ pub fn run(
         around.accelerate(span.time(k) + h / 2.0, group)?;
         place_blocks(group);
         kick(group, h / 2.0);
+        group.middle = span.time(k) + h / 2.0;
         impacts::resolve(group, h, settings.law, &mut outcome);
         kick(group, h / 2.0);
         solve_rows(group, h, settings, &mut outcome);
@@ -141,6 +142,9 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
     let (sweeps, residual) = sweep::solve(velocities, blocks, budget);
     outcome.sweeps += u64::from(sweeps);
     outcome.residual = outcome.residual.max(residual);
+    for (block, link) in blocks.iter().zip(links) {
+        link.passed += block.impulse[0] + block.impulse[1];
+    }
     group.book_rows(h, &mut outcome.ledger);
 }
 

@@ -2,10 +2,19 @@
 
 mod advance;
 mod detect;
+mod events;
+mod hits;
+mod hooks;
 mod near;
+mod touching;
+mod view;
 
 pub(super) use advance::ContactScratch;
+pub use events::{ContactEvent, Events};
+pub use hooks::{ContactHooks, PreSolve, ShapeView};
 pub(super) use near::{Near, Patch};
+pub(super) use touching::Change;
+pub use view::Contact;
 
 use serde::{Deserialize, Serialize};
 
@@ -36,6 +45,8 @@ pub(super) struct Contacts {
     pub patches: Vec<Patch>,
     /// Length (s) of the substep that the remembered impulses are of.
     pub substep: Real,
+    /// Shapes that touch.
+    pub touching: touching::Touching,
     #[serde(skip)]
     map: PairMap,
     #[serde(skip)]
@@ -72,13 +83,13 @@ impl Contacts {
 
     /// Takes in a body that was edited.
     pub fn replace(&mut self, bodies: &Bodies, body: usize) {
-        self.take_out(body);
+        self.take_out(bodies, body);
         self.insert(bodies, body);
     }
 
-    /// Forgets a body; the last one takes its place.
-    pub fn remove(&mut self, body: usize) {
-        self.take_out(body);
+    /// Forgets a body that is still in the columns; the last one takes its place.
+    pub fn remove(&mut self, bodies: &Bodies, body: usize) {
+        self.take_out(bodies, body);
         self.of_body.swap_remove(body);
         self.frames.swap_remove(body);
         let last = self.of_body.len() as u32;
@@ -110,10 +121,11 @@ impl Contacts {
     }
 
     /// Derives what is not stored.
-    pub fn rebuild(&mut self) {
+    pub fn rebuild(&mut self, bodies: &Bodies) {
         self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
         self.frames.resize(self.of_body.len(), ORIGIN);
         self.touch_all();
+        self.retell(bodies.handles());
     }
 
     fn insert(&mut self, bodies: &Bodies, body: usize) {
@@ -138,7 +150,7 @@ impl Contacts {
         }
     }
 
-    fn take_out(&mut self, body: usize) {
+    fn take_out(&mut self, bodies: &Bodies, body: usize) {
         let proxies = std::mem::take(&mut self.of_body[body]);
         if proxies.is_empty() {
             return;
@@ -146,7 +158,8 @@ impl Contacts {
         for proxy in &proxies {
             self.broad.remove(*proxy);
         }
-        self.drop_near(|near, _| near.proxies.iter().any(|proxy| proxies.contains(proxy)));
+        let handles = bodies.handles();
+        self.drop_near(handles, |near, _| near.proxies.iter().any(|proxy| proxies.contains(proxy)));
     }
 
     fn body_of(&self, proxy: ProxyId) -> u32 {
