@@ -1,8 +1,11 @@
 //! Contacts as views.
 
+use culbuto::BodyKind;
+use culbuto::body::Role;
 use culbuto::math::vec2;
+use culbuto::shapes::Shape;
 
-use super::{DT, G, ball, crate_at, ground, world};
+use super::{DT, G, ball, crate_at, fixed, ground, world};
 
 #[test]
 fn the_impulses_of_a_resting_box_sum_to_its_weight_times_the_substep() {
@@ -79,4 +82,22 @@ fn the_body_added_first_comes_first_whichever_moves() {
     assert_eq!((contact.bodies, contact.indices), ([falling, ground], [0, 1]));
     assert!(contact.normal.y < -0.999);
     assert!(contact.force().y < 0.0, "on the ground: down");
+}
+
+#[test]
+fn a_rider_stays_on_a_lift_whichever_way_it_goes() {
+    for speed in [1.0, -1.0, 5.0] {
+        let mut world = world();
+        let floor = Shape::rectangle(4.0, 0.2).unwrap();
+        let lift = fixed(&mut world, floor, vec2(0.0, -0.1), Role::Solid);
+        world.body_mut(lift).unwrap().set_kind(BodyKind::Kinematic).unwrap();
+        world.body_mut(lift).unwrap().set_velocity(vec2(0.5, speed)).unwrap();
+        let rider = crate_at(&mut world, vec2(-1.0, 0.5));
+        world.body_mut(rider).unwrap().set_velocity(vec2(0.5, speed)).unwrap();
+        world.steps(DT, 60).unwrap();
+        let apart = world.body(rider).unwrap().position() - world.body(lift).unwrap().position();
+        assert!((apart - vec2(-1.0, 0.6)).norm() < 1e-9, "{apart:?}");
+        let weight = world.body(rider).unwrap().mass().mass * G;
+        assert!((world.contacts()[0].force().y - weight).abs() < 1e-9 * weight);
+    }
 }

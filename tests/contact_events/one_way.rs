@@ -81,7 +81,6 @@ fn a_platform_that_moves_up_takes_what_is_above_and_passes_what_is_below() {
     let below = ball(&mut world, vec2(1.0, -1.0), vec2(0.0, 6.0));
     world.steps(DT, 180).unwrap();
     let top = height(&world, lift) + 0.1;
-    eprintln!("{:?} {:?} {:#?}", world.body(rider).unwrap().pose(), world.body(rider).unwrap().twist(), world.contacts());
     assert!((top - 3.0).abs() < 1e-9);
     assert!((height(&world, rider) - top - 0.5).abs() < 2e-3, "{}", height(&world, rider) - top);
     assert!((height(&world, below) - top - 0.25).abs() < 2e-3, "{}", height(&world, below) - top);

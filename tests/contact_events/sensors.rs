@@ -12,13 +12,17 @@ use super::{DT, ball, crate_at, fixed, ground, world};
 #[test]
 fn a_ball_through_a_sensor_is_noticed_once_and_not_braked() {
     let mut world = World::new(vec2(0.0, 0.0)).unwrap();
-    let sensor = fixed(&mut world, Shape::rectangle(1.0, 1.0).unwrap(), vec2(0.0, 0.0), Role::Sensor);
+    let sensor =
+        fixed(&mut world, Shape::rectangle(1.0, 1.0).unwrap(), vec2(0.0, 0.0), Role::Sensor);
     let ball = ball(&mut world, vec2(-2.0, 0.0), vec2(2.0, 0.0));
     let mut inside = 0;
     for _ in 0..20 {
         world.steps(0.1, 1).unwrap();
         inside += world.overlaps_of(sensor).unwrap().len();
-        assert_eq!(world.overlaps_of(sensor).unwrap().len(), world.overlaps_of(ball).unwrap().len());
+        assert_eq!(
+            world.overlaps_of(sensor).unwrap().len(),
+            world.overlaps_of(ball).unwrap().len()
+        );
     }
     // The gap of 1.25 m closes after 0.625 s, and opens again after 1.375 s.
     assert_eq!(inside, 7);
@@ -29,7 +33,10 @@ fn a_ball_through_a_sensor_is_noticed_once_and_not_braked() {
     let events = world.events();
     assert_eq!((events.sensor_begin.len(), events.sensor_end.len()), (1, 1));
     assert_eq!(events.sensor_begin[0].bodies, [sensor, ball]);
-    assert!((events.sensor_begin[0].time - 2.7).abs() < 1e-9 && (events.sensor_end[0].time - 3.4).abs() < 1e-9);
+    assert!(
+        (events.sensor_begin[0].time - 2.7).abs() < 1e-9
+            && (events.sensor_end[0].time - 3.4).abs() < 1e-9
+    );
     assert!(events.begin.is_empty() && events.end.is_empty() && events.hit.is_empty());
     assert!(world.contacts().is_empty());
 }

@@ -9,7 +9,7 @@ use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
-use crate::world::contacts::Change;
+use crate::world::contacts::{Change, Patch};
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -23,6 +23,35 @@ pub(super) struct Backup {
     /// What began or ended to touch and is not told yet.
     changes: Vec<Change>,
 }
+
+/// The moving part of a world at the start of a step, to take the step again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Start {
+    poses: Vec<Pose>,
+    twists: Vec<Twist>,
+    patches: Vec<Patch>,
+    clock: Clock,
+    ledger: Ledger,
+}
+
+impl Start {
+    fn save(&mut self, state: &State) {
+        self.poses.clone_from(&state.bodies.poses);
+        self.twists.clone_from(&state.bodies.twists);
+        self.patches.clone_from(&state.contacts.patches);
+        (self.clock, self.ledger) = (state.clock, state.ledger);
+    }
+
+    fn restore(&mut self, state: &mut State) {
+        state.bodies.poses.clone_from(&self.poses);
+        state.bodies.twists.clone_from(&self.twists);
+        state.contacts.patches.clone_from(&self.patches);
+        (state.clock, state.ledger) = (self.clock, self.ledger);
+    }
+}
+
+/// How often a step may be halved because a body was thrown too far.
+const MOST_HALVINGS: u32 = 10;
 
 impl World {
     /// Moves the world on by dt (s), at a fixed step.
@@ -66,14 +95,12 @@ impl World {
             world.planned();
             Ok(())
         })?;
-        if self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty()) {
-            self.stage("detect", |world| world.detect(dt))?;
-            self.stage("islands", |world| {
-                world.find_islands();
-                Ok(())
-            })?;
+        self.scratch.contacts.start = self.state.clock.now;
+        if self.plan.as_ref().is_some_and(|plan| plan.colliding.is_empty()) {
+            self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+        } else {
+            self.collide_and_advance(dt, MOST_HALVINGS)?;
         }
-        self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
         if self.notices() {
             self.stage("events", |world| {
                 world.notice();
@@ -81,6 +108,29 @@ impl World {
             })?;
         }
         self.stage("report", |world| world.finish(dt))
+    }
+
+    /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
+    /// the step is taken again in two halves.
+    fn collide_and_advance(&mut self, dt: Real, halvings: u32) -> Result<()> {
+        self.stage("detect", |world| world.detect(dt))?;
+        self.stage("islands", |world| {
+            world.find_islands();
+            Ok(())
+        })?;
+        let watched = halvings > 0 && self.scratch.contacts.watched;
+        let hits = self.events.hit.len();
+        if watched {
+            self.scratch.start.save(&self.state);
+        }
+        self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+        if !(watched && self.scratch.contacts.escaped) {
+            return Ok(());
+        }
+        self.scratch.start.restore(&mut self.state);
+        self.events.hit.truncate(hits);
+        self.collide_and_advance(dt / 2.0, halvings - 1)?;
+        self.collide_and_advance(dt / 2.0, halvings - 1)
     }
 
     /// Whether something can begin or end to touch in a step.
@@ -177,6 +227,8 @@ impl World {
 
     /// Moves every body through a span at the fixed step.
     fn advance_span(&mut self, span: Span) -> Result<()> {
+        // First what touches, while bodies whose motion is given still stand where the step begins.
+        self.advance_contacts(span)?;
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
         let result = plan.runs().try_for_each(|run| {
@@ -187,8 +239,7 @@ impl World {
             self.advance_run(run, span, plan.resistance)
         });
         self.plan = Some(plan);
-        result?;
-        self.advance_contacts(span)
+        result
     }
 
     /// Moves the bodies whose solution is known.

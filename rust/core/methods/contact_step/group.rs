@@ -24,6 +24,17 @@ impl Mass {
     }
 }
 
+/// Whether arrivals of a contact are looked for, so that an impact comes of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// No: its rows foresee it.
+    No,
+    /// It bounces: when the features that are nearest now meet.
+    Bounces,
+    /// It moves too far in a substep for its rows and features to foresee: when the shapes meet, wherever.
+    Swift,
+}
+
 /// What the step needs of a contact beside its rows.
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
@@ -41,8 +52,8 @@ pub struct Link {
     pub curvature: [Real; 2],
     /// Approach (m/s) up to which a contact rests and does not bounce: what the substep's kicks give it.
     pub resting: [Real; 2],
-    /// Arrivals are looked for: it bounces, or moves too far in a substep for its rows to foresee.
-    pub watched: bool,
+    /// Whether arrivals are looked for.
+    pub watched: Watched,
     /// Its impacts in the step.
     pub hit: Hit,
     /// Normal impulses of the rows in the step (N·s).
@@ -81,6 +92,10 @@ pub struct Group {
     pub velocities: Vec<Velocity>,
     /// Places.
     pub places: Vec<Place>,
+    /// Angles at the start of the step (rad).
+    pub angles: Vec<Real>,
+    /// How far from its start each body may get before what it can meet must be looked for anew (m).
+    pub reach: Vec<Real>,
     /// Masses.
     pub masses: Vec<Mass>,
     /// Rows.
@@ -104,10 +119,17 @@ impl Group {
         self.velocities.clear();
         self.places.clear();
         self.masses.clear();
+        self.angles.clear();
+        self.reach.clear();
         self.blocks.clear();
         self.links.clear();
         self.driven = false;
         self.watch.clear();
+    }
+
+    /// Whether a body has got farther than was foreseen when what it can meet was looked for.
+    pub(super) fn has_escaped(&self) -> bool {
+        self.places.iter().zip(&self.reach).any(|(place, reach)| place.way.norm() > *reach)
     }
 
     /// Books what the rows of a substep took from the bodies.
@@ -141,7 +163,7 @@ impl Group {
 
     /// Adds a contact, watched where it bounces or is swift.
     pub fn add_contact(&mut self, block: Block, link: Link) {
-        if link.watched {
+        if link.watched != Watched::No {
             self.watch.blocks.push(self.blocks.len() as u32);
         }
         self.blocks.push(block);

@@ -8,8 +8,8 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::law;
-use super::path::Pair;
-use super::{Group, Outcome};
+use super::path::{NEAR, Pair};
+use super::{Group, Outcome, Surroundings, Watched};
 use crate::body::ImpactLaw;
 use crate::constraints::contact::{Block, moved};
 use crate::math::{Real, Twist, Vec2};
@@ -86,7 +86,12 @@ impl Watch {
 }
 
 /// Resolves the impacts of a substep. The velocities are those of its middle.
-pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome) {
+pub fn resolve(
+    group: &mut Group,
+    h: Real,
+    law: ImpactLaw,
+    (around, outcome): (&dyn Surroundings, &mut Outcome),
+) {
     if group.watch.blocks.is_empty() {
         return;
     }
@@ -99,7 +104,7 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
     let mut queue = BinaryHeap::new();
     for k in &watch.blocks {
         set_resting(group, *k as usize, h);
-        queue.extend(next_event(group, &watch, *k, [-h / 2.0, h / 2.0]));
+        queue.extend(next_event(group, (&watch, around), *k, [-h / 2.0, h / 2.0]));
     }
     // Enough for every pair to meet many times; what a collapse leaves is for the rows.
     let mut left = 64 + 32 * watch.blocks.len();
@@ -123,7 +128,7 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
             }
             let [from, to] = [0, 1].map(|k| watch.first[slot as usize + k] as usize);
             for k in &watch.of_slot[from..to] {
-                queue.extend(next_event(group, &watch, *k, [event.time, h / 2.0]));
+                queue.extend(next_event(group, (&watch, around), *k, [event.time, h / 2.0]));
             }
         }
     }
@@ -149,9 +154,21 @@ fn set_resting(group: &mut Group, k: usize, h: Real) {
     }
 }
 
-fn next_event(group: &Group, watch: &Watch, block: u32, [from, to]: [Real; 2]) -> Option<Event> {
-    let bodies = group.blocks[block as usize].bodies;
-    let arrival = pair(group, block as usize).first_arrival(from, to)?;
+fn next_event(
+    group: &mut Group,
+    (watch, around): (&Watch, &dyn Surroundings),
+    block: u32,
+    [from, to]: [Real; 2],
+) -> Option<Event> {
+    let k = block as usize;
+    let bodies = group.blocks[k].bodies;
+    let arrival = if group.links[k].watched == Watched::Swift {
+        let (arrival, manifold) = pair(group, k).first_meeting([from, to], around)?;
+        group.links[k].manifold = manifold;
+        arrival
+    } else {
+        pair(group, k).first_arrival(from, to)?
+    };
     let stamp = watch.stamp(bodies);
     Some(Event { time: arrival.time, approach: arrival.approach, block, stamp })
 }
@@ -162,6 +179,7 @@ fn pair(group: &Group, k: usize) -> Pair<'_> {
         link: &group.links[k],
         places: [&group.places[a], &group.places[b]],
         velocities: [&group.velocities[a], &group.velocities[b]],
+        angles: [group.angles[a], group.angles[b]],
     }
 }
 
@@ -180,8 +198,9 @@ fn strike(group: &mut Group, event: &Event, law: ImpactLaw, outcome: &mut Outcom
     let mut u = block.velocity(bodies);
     u[2] -= block.target[2];
     let mut restitution = [0.0; 2];
+    let touching = if link.watched == Watched::Swift { 4.0 * NEAR } else { 1e-9 };
     for p in 0..2 {
-        let touches = p < link.manifold.count && at.gap[p] <= 1e-9 * link.width;
+        let touches = p < link.manifold.count && at.gap[p] <= touching * link.width;
         block.on[p] = touches && u[p] < 0.0;
         restitution[p] = if -u[p] > link.resting[p] { link.restitution } else { 0.0 };
     }

@@ -15,6 +15,7 @@ mod path;
 mod project;
 
 use crate::body::ImpactLaw;
+use crate::collision::{Manifold, Sweep};
 use crate::constraints::Place;
 use crate::constraints::contact::{Block, curvature, moved};
 use crate::error::Result;
@@ -22,7 +23,7 @@ use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
-pub use group::{Group, Hit, Link, Mass};
+pub use group::{Group, Hit, Link, Mass, Watched};
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {
@@ -37,6 +38,10 @@ pub trait Surroundings {
     /// # Errors
     /// Motion that the flow of the drag cannot give.
     fn drift(&mut self, h: Real, group: &mut Group) -> Result<Real>;
+
+    /// First fraction of the ways of the two bodies of a contact at which their shapes are within `target` (m) of
+    /// one another, and the manifold there. The ways are counted from A's centre of mass at the start of the step.
+    fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)>;
 }
 
 /// How hard to try.
@@ -59,6 +64,8 @@ pub struct Outcome {
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
     pub residual: Real,
+    /// A body was thrown so far that it may have met what was not looked for.
+    pub escaped: bool,
 }
 
 /// Moves a group through a span.
@@ -79,11 +86,12 @@ pub fn run(
         place_blocks(group);
         kick(group, h / 2.0);
         group.middle = span.time(k) + h / 2.0;
-        impacts::resolve(group, h, settings.law, &mut outcome);
+        impacts::resolve(group, h, settings.law, (around, &mut outcome));
         kick(group, h / 2.0);
         solve_rows(group, h, settings, &mut outcome);
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         outcome.ledger.correction_work += project::apart(group, h);
+        outcome.escaped |= !group.watch.blocks.is_empty() && group.has_escaped();
     }
     Ok(outcome)
 }
@@ -171,7 +179,7 @@ fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real,
         return (-0.5 * bend, true);
     }
     // What arrives by an impact is not braked before, and what passes by not at all.
-    (-gap / h, !(link.watched && along < -link.resting[k]))
+    (-gap / h, !(link.watched != Watched::No && along < -link.resting[k]))
 }
 
 impl std::ops::AddAssign for Twist {

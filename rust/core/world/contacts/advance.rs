@@ -2,8 +2,9 @@
 
 use super::hooks::Answer;
 use super::near::Kind;
+use super::{Contacts, FAR};
 use crate::body::Bodies;
-use crate::collision::Manifold;
+use crate::collision::{Frame, Manifold, Sweep, collide, first_impact};
 use crate::constraints::contact::Block;
 use crate::constraints::{Place, Velocity};
 use crate::error::Result;
@@ -11,7 +12,7 @@ use crate::forces::{Air, drift_body, has_resistance};
 use crate::islands::Islands;
 use crate::math::{Pose, Real, Twist, Vec2, Wrench};
 use crate::methods::Span;
-use crate::methods::contact_step::{self, Group, Hit, Link, Mass, Outcome, Surroundings};
+use crate::methods::contact_step::{self, Group, Hit, Link, Mass, Outcome, Surroundings, Watched};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -32,6 +33,10 @@ pub(in crate::world) struct ContactScratch {
     pub answers: Vec<Answer>,
     /// When the step began (s).
     pub start: Real,
+    /// Some body may bounce or moves far in a step.
+    pub watched: bool,
+    /// A body was thrown farther than what it can meet was looked for.
+    pub escaped: bool,
 }
 
 impl ContactScratch {
@@ -46,12 +51,12 @@ impl World {
     pub(in crate::world) fn find_islands(&mut self) {
         let Self { state, scratch, .. } = self;
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
-        let ContactScratch { islands, links, solid, moved, answers, start, .. } =
+        let ContactScratch { islands, links, solid, moved, answers, escaped, watched, .. } =
             &mut scratch.contacts;
-        *start = state.clock.now;
         (links.clear(), solid.clear());
         moved.clear();
         moved.resize(masses.len(), false);
+        (*escaped, *watched) = (false, contacts.far);
         for (place, patch) in contacts.patches.iter().enumerate() {
             let near = &contacts.near[patch.near as usize];
             if answers.get(place).is_some_and(|answer| !answer.on) {
@@ -60,6 +65,7 @@ impl World {
             if matches!(near.kind, Kind::Solid | Kind::OneWay { solid: true }) {
                 let bodies = near.proxies.map(|proxy| contacts.body_of(proxy));
                 links.push(bodies);
+                *watched |= near.touch.restitution > 0.0;
                 solid.push(place as u32);
                 bodies.iter().for_each(|i| moved[*i as usize] = masses[*i as usize].is_free());
             }
@@ -98,6 +104,7 @@ impl World {
                     *entry = (*mark, group.bodies.len() as u32);
                     let steady = steady.get(body as usize).copied().unwrap_or(Wrench::ZERO);
                     add_body(group, bodies, body, (settings.gravity, steady));
+                    group.reach.push(contacts.covered[body as usize]);
                 }
                 entry.1
             });
@@ -121,7 +128,11 @@ impl World {
                     place,
                     curvature: [0.0; 2],
                     resting: [0.0; 2],
-                    watched: touch.restitution > 0.0 || swift,
+                    watched: match (swift, touch.restitution > 0.0) {
+                        (true, _) => Watched::Swift,
+                        (false, true) => Watched::Bounces,
+                        (false, false) => Watched::No,
+                    },
                     hit: Hit::default(),
                     passed: 0.0,
                 },
@@ -136,7 +147,8 @@ impl World {
             sweeps: state.settings.sweeps,
         };
         let resistance = plan.as_ref().is_some_and(|plan| plan.resistance);
-        let mut around = Still { bodies: &state.bodies, air: state.settings.air, resistance };
+        let (bodies, contacts) = (&state.bodies, &state.contacts);
+        let mut around = Still { bodies, contacts, air: state.settings.air, resistance };
         contact_step::run(&mut scratch.contacts.group, span, settings, &mut around)
     }
 
@@ -165,6 +177,7 @@ impl World {
             contacts.patches[link.place as usize].memory = block.memory();
         }
         *ledger += outcome.ledger;
+        scratch.contacts.escaped |= outcome.escaped;
         report.sweeps += outcome.sweeps;
         report.impacts += outcome.impacts;
         report.residual = report.residual.max(outcome.residual);
@@ -180,6 +193,7 @@ fn add_body(group: &mut Group, bodies: &Bodies, body: u32, (gravity, steady): (V
     let fixed = velocity.is_fixed();
     group.driven |= fixed && velocity.twist != Twist::ZERO;
     group.bodies.push(body);
+    group.angles.push(bodies.poses[i].angle);
     group.velocities.push(velocity);
     let acceleration = if fixed { Twist::ZERO } else { acceleration };
     group.places.push(Place::start(&bodies.poses[i], acceleration));
@@ -197,7 +211,6 @@ fn is_swift(
     [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
     (width, h): (Real, Real),
 ) -> bool {
-    const FAR: Real = 0.25;
     let [a, b] = [&bodies.twists[i], &bodies.twists[j]];
     let turn = a.angular.abs() * reach_i + b.angular.abs() * reach_j;
     let way = (b.linear - a.linear).norm() + turn;
@@ -207,6 +220,7 @@ fn is_swift(
 /// Surroundings whose forces stay the same over a span.
 struct Still<'a> {
     bodies: &'a Bodies,
+    contacts: &'a Contacts,
     air: Air,
     resistance: bool,
 }
@@ -236,5 +250,15 @@ impl Surroundings for Still<'_> {
             dissipated += before - mass.kinetic_energy(&velocity.twist);
         }
         Ok(dissipated)
+    }
+
+    fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)> {
+        let near = &self.contacts.near[self.contacts.patches[link.place as usize].near as usize];
+        let [a, b] = near.proxies.map(|p| &self.contacts.entries[p.0 as usize].collider.geometry);
+        let hit = first_impact((a, &ways[0]), (b, &ways[1]), target)?;
+        let [frame_a, frame_b] = [0, 1].map(|k| Frame::of(&ways[k].at(hit.fraction)));
+        let mut found = Vec::new();
+        collide(a, b, &frame_b.seen_from(&frame_a), 2.0 * target, &mut found);
+        found.first().map(|manifold| (hit.fraction, *manifold))
     }
 }

@@ -131,9 +131,11 @@ impl Contacts {
     /// The shapes of a pair as events name them, and whether that turns the pair round.
     pub(super) fn shapes_of(&self, near: &Near, handles: &[BodyHandle]) -> (ShapePair, bool) {
         let entries = near.proxies.map(|proxy| &self.entries[proxy.0 as usize]);
-        let [x, y] = entries.map(|entry| (handles[entry.collider.body as usize], entry.collider.part));
+        let [x, y] =
+            entries.map(|entry| (handles[entry.collider.body as usize], entry.collider.part));
         let sensor = near.kind == Kind::Sensor;
-        let flipped = if sensor { entries[0].role != Role::Sensor } else { y.0.slot() < x.0.slot() };
+        let flipped =
+            if sensor { entries[0].role != Role::Sensor } else { y.0.slot() < x.0.slot() };
         let [a, b] = if flipped { [y, x] } else { [x, y] };
         (ShapePair { bodies: [a.0, b.0], parts: [a.1, b.1], sensor }, flipped)
     }
