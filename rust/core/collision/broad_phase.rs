@@ -29,7 +29,7 @@ struct Proxy {
 /// Every box is kept a margin larger than told ("fat"), so that most small motions change nothing. What moves
 /// and what stands still are in two trees, since what stands still is never looked at for its own sake. All
 /// answers come in an order that depends on the order of the calls alone.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub struct BroadPhase {
     /// What stands still; what moves.
     trees: [Tree; 2],
@@ -38,6 +38,22 @@ pub struct BroadPhase {
     moved: Vec<ProxyId>,
     #[serde(skip)]
     stack: Vec<u32>,
+}
+
+// By hand, so that a copy into an old one keeps its memory.
+impl Clone for BroadPhase {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, from: &Self) {
+        self.trees.clone_from(&from.trees);
+        self.proxies.clone_from(&from.proxies);
+        self.moved.clone_from(&from.moved);
+        self.free = from.free;
+    }
 }
 
 impl Default for BroadPhase {

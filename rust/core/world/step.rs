@@ -9,7 +9,7 @@ use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
-use crate::world::contacts::{Change, Patch};
+use crate::world::contacts::{Change, ContactBackup, Patch};
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -18,6 +18,8 @@ pub(super) struct Backup {
     moving: Vec<(usize, Pose, Twist)>,
     /// Forces for the next step; empty where there are none.
     applied: Vec<Wrench>,
+    /// Contacts, where the plan looks for any.
+    contacts: Option<ContactBackup>,
     clock: Clock,
     ledger: Ledger,
     /// What began or ended to touch and is not told yet.
@@ -335,6 +337,11 @@ impl Backup {
         if applied {
             self.applied.extend_from_slice(&bodies.applied);
         }
+        if plan.colliding.is_empty() {
+            self.contacts = None;
+        } else {
+            self.contacts.get_or_insert_default().save(&state.contacts);
+        }
         (self.clock, self.ledger) = (state.clock, state.ledger);
         self.changes.clear();
         self.changes.extend_from_slice(state.contacts.touching.changes());
@@ -348,6 +355,9 @@ impl Backup {
         let applied = !self.applied.is_empty();
         if applied {
             state.bodies.applied.clone_from(&self.applied);
+        }
+        if let Some(contacts) = &self.contacts {
+            contacts.restore(&mut state.contacts);
         }
         (state.clock, state.ledger) = (self.clock, self.ledger);
         state.contacts.touching.set_changes(&self.changes);

@@ -44,6 +44,12 @@ impl ContactScratch {
     pub fn moves(&self, body: usize) -> bool {
         self.moved.get(body).copied().unwrap_or(false)
     }
+
+    /// Forgets the groups, where there is nothing to look for.
+    pub fn forget(&mut self) {
+        self.islands.clear();
+        self.moved.clear();
+    }
 }
 
 impl World {
@@ -75,6 +81,9 @@ impl World {
 
     /// Moves every group through a span.
     pub(in crate::world) fn advance_contacts(&mut self, span: Span) -> Result<()> {
+        if self.scratch.contacts.islands.is_empty() {
+            return Ok(());
+        }
         self.state.contacts.scale_impulses(span.h());
         for k in 0..self.scratch.contacts.islands.len() {
             self.gather(k, span);

@@ -1,6 +1,7 @@
 //! Contacts of a world: the shapes in it, which of them are near one another, and what a contact remembers.
 
 mod advance;
+mod backup;
 mod detect;
 mod events;
 mod hits;
@@ -10,6 +11,7 @@ mod touching;
 mod view;
 
 pub(super) use advance::ContactScratch;
+pub(super) use backup::ContactBackup;
 pub use events::{ContactEvent, Events};
 pub use hooks::{ContactHooks, PreSolve, ShapeView};
 pub(super) use near::{Near, Patch};
@@ -131,11 +133,16 @@ impl Contacts {
 
     /// Derives what is not stored.
     pub fn rebuild(&mut self, bodies: &Bodies) {
-        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
+        self.map_pairs();
         self.frames.resize(self.of_body.len(), ORIGIN);
         self.covered.resize(self.of_body.len(), 0.0);
         self.touch_all();
         self.retell(bodies.handles());
+    }
+
+    /// Derives the map of pairs.
+    fn map_pairs(&mut self) {
+        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
     }
 
     fn insert(&mut self, bodies: &Bodies, body: usize) {
