@@ -83,9 +83,8 @@ impl World {
         &self.events
     }
 
-    /// Counts what happened in earlier calls among the events, before those of the last.
-    pub fn prepend_events(&mut self, mut earlier: Events) {
-        earlier.append(std::mem::take(&mut self.events));
-        self.events = earlier;
+    /// Has [`World::events`] tell these until the next call: those of several calls that are one to the user.
+    pub fn set_events(&mut self, events: Events) {
+        self.events = events;
     }
 }
