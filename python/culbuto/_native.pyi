@@ -757,6 +757,12 @@ class Body:
     """
 
     @property
+    def contacts(self) -> Contacts:
+        """Where the body touched others after the last step."""
+    @property
+    def overlaps(self) -> list[Body]:
+        """Bodies in its sensors, and whose sensors it is in, after the last step."""
+    @property
     def position(self) -> Vec2:
         """Position of the body's frame (m)."""
     @position.setter
@@ -1116,6 +1122,227 @@ class Schedule:
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
 
 @final
+class Contact:
+    """Where two bodies touch: one or two points with one normal."""
+
+    @property
+    def body_a(self) -> Body:
+        """The body of the two that was added first."""
+    @property
+    def body_b(self) -> Body:
+        """The other body."""
+    @property
+    def part_a(self) -> int:
+        """Which shape of A, counted from 0."""
+    @property
+    def part_b(self) -> int:
+        """Which shape of B, counted from 0."""
+    @property
+    def normal(self) -> Vec2:
+        """Unit vector from A to B."""
+    @property
+    def points(self) -> list[Vec2]:
+        """One or two points (m)."""
+    @property
+    def gaps(self) -> list[float]:
+        """Gap at each point (m), below 0 where the surfaces overlap."""
+    @property
+    def normal_impulses(self) -> list[float]:
+        """Impulse on B along the normal at each point, in the last substep (N·s)."""
+    @property
+    def tangential_impulse(self) -> float:
+        """Impulse on B along the normal turned counter-clockwise (N·s)."""
+    @property
+    def force(self) -> Vec2:
+        """Mean force on B over the last substep (N); that on A is its opposite."""
+    @property
+    def sliding(self) -> bool:
+        """Whether the surfaces slid."""
+
+@final
+class Contacts:
+    """Contacts at one moment, as arrays and one by one."""
+
+    @property
+    def bodies(self) -> _IntArray:
+        """Places of A and B in body order (n, 2)."""
+    @property
+    def parts(self) -> _IntArray:
+        """Which shape of each (n, 2), counted from 0."""
+    @property
+    def count(self) -> _IntArray:
+        """Number of points of each (n,), 1 or 2."""
+    @property
+    def points(self) -> _Array:
+        """Points (n, 2, 2) (m); NaN where there is no second."""
+    @property
+    def normals(self) -> _Array:
+        """Unit vectors from A to B (n, 2)."""
+    @property
+    def gaps(self) -> _Array:
+        """Gaps (n, 2) (m), below 0 in overlap; NaN where there is no second point."""
+    @property
+    def normal_impulses(self) -> _Array:
+        """Impulses on B along the normal (n, 2), in the last substep (N·s)."""
+    @property
+    def tangential_impulses(self) -> _Array:
+        """Impulses on B along the normal turned counter-clockwise (n,) (N·s)."""
+    @property
+    def forces(self) -> _Array:
+        """Mean forces on B over the last substep (n, 2) (N)."""
+    @property
+    def sliding(self) -> NDArray[np.bool_]:
+        """Whether the surfaces slid (n,)."""
+    @property
+    def items(self) -> list[Contact]:
+        """One by one."""
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> Contact: ...
+    def __iter__(self) -> Iterator[Contact]: ...
+
+@final
+class ContactEvent:
+    """Something that happened between two shapes.
+
+    The body that was added first is A; of a sensor and what it notices, the sensor. A body that was
+    removed since says so (`removed`).
+    """
+
+    @property
+    def kind(self) -> _EventKind:
+        """"begin", "end", "hit", "sensor_begin" or "sensor_end"."""
+    @property
+    def time(self) -> float:
+        """World time (s): of a hit its moment in the step, of all else the step's end."""
+    @property
+    def body_a(self) -> Body | None:
+        """A; None if it was removed before and no object is left of it."""
+    @property
+    def body_b(self) -> Body | None:
+        """B; None if it was removed before and no object is left of it."""
+    @property
+    def part_a(self) -> int:
+        """Which shape of A, counted from 0."""
+    @property
+    def part_b(self) -> int:
+        """Which shape of B, counted from 0."""
+    @property
+    def point(self) -> Vec2 | None:
+        """Where they touch (m); None at ends and for sensors."""
+    @property
+    def normal(self) -> Vec2 | None:
+        """Unit vector from A to B; None at ends and for sensors."""
+    @property
+    def approach_speed(self) -> float:
+        """How fast they came together (m/s), of hits."""
+    @property
+    def impulse(self) -> float:
+        """Along the normal (N·s): of a hit all, of a beginning the last substep's."""
+
+@final
+class ContactEvents:
+    """Events of one kind, as arrays and one by one."""
+
+    @property
+    def times(self) -> _Array:
+        """World times (n,) (s)."""
+    @property
+    def bodies(self) -> _IntArray:
+        """Places of A and B in body order (n, 2); -1 for a body that was removed."""
+    @property
+    def parts(self) -> _IntArray:
+        """Which shape of each (n, 2), counted from 0."""
+    @property
+    def points(self) -> _Array:
+        """Points (n, 2) (m); NaN where there is none."""
+    @property
+    def normals(self) -> _Array:
+        """Unit vectors from A to B (n, 2); NaN where there is none."""
+    @property
+    def approach_speeds(self) -> _Array:
+        """How fast they came together (n,) (m/s), of hits."""
+    @property
+    def impulses(self) -> _Array:
+        """Impulses along the normal (n,) (N·s)."""
+    @property
+    def items(self) -> list[ContactEvent]:
+        """One by one."""
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> ContactEvent: ...
+    def __iter__(self) -> Iterator[ContactEvent]: ...
+
+@final
+class Events:
+    """What happened during a call that moved the world on."""
+
+    @property
+    def begin(self) -> ContactEvents:
+        """Shapes that began to touch."""
+    @property
+    def end(self) -> ContactEvents:
+        """Shapes that no longer touch."""
+    @property
+    def hit(self) -> ContactEvents:
+        """Impacts, and new contacts that came faster than a substep's forces make them."""
+    @property
+    def sensor_begin(self) -> ContactEvents:
+        """Shapes that a sensor began to overlap."""
+    @property
+    def sensor_end(self) -> ContactEvents:
+        """Shapes that a sensor no longer overlaps."""
+
+@final
+class PreSolve:
+    """A contact that is about to be solved. What is set holds for this step."""
+
+    @property
+    def body_a(self) -> Body:
+        """One body."""
+    @property
+    def body_b(self) -> Body:
+        """The other body."""
+    @property
+    def part_a(self) -> int:
+        """Which shape of A, counted from 0."""
+    @property
+    def part_b(self) -> int:
+        """Which shape of B, counted from 0."""
+    @property
+    def normal(self) -> Vec2:
+        """Unit vector from A to B."""
+    @property
+    def points(self) -> list[Vec2]:
+        """One or two points (m)."""
+    @property
+    def gaps(self) -> list[float]:
+        """Gap at each point (m), below 0 where the surfaces overlap."""
+    @property
+    def friction(self) -> tuple[float, float]:
+        """Static and kinetic friction; may be set to one number for both as well."""
+    @friction.setter
+    def friction(self, value: float | tuple[float, float], /) -> None: ...
+    @property
+    def restitution(self) -> float:
+        """Speed after over speed before, 0 to 1."""
+    @restitution.setter
+    def restitution(self, value: float, /) -> None: ...
+    @property
+    def rolling_resistance(self) -> float:
+        """Arm (m) by which the normal force opposes rolling."""
+    @rolling_resistance.setter
+    def rolling_resistance(self, value: float, /) -> None: ...
+    @property
+    def tangent_speed(self) -> float:
+        """Velocity (m/s) of B along the surface of A at which nothing slides."""
+    @tangent_speed.setter
+    def tangent_speed(self, value: float, /) -> None: ...
+    @property
+    def enabled(self) -> bool:
+        """Whether the shapes resist one another."""
+    @enabled.setter
+    def enabled(self, value: bool, /) -> None: ...
+
+@final
 class Trajectory:
     """The motion of all bodies at a row of times. Bodies stand in body order."""
 
@@ -1282,6 +1509,34 @@ class World:
         sleeping: bool = False,
         timing: bool = False,
     ) -> World: ...
+    @property
+    def contacts(self) -> Contacts:
+        """Where solid shapes touched after the last step."""
+    @property
+    def events(self) -> Events:
+        """What happened during the last call that moved the world on."""
+    def on_begin(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """Calls a function after the step in which two shapes begin to touch."""
+    def on_end(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """The same, when two shapes no longer touch."""
+    def on_hit(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """The same, for each hit."""
+    def on_sensor_begin(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """The same, when a sensor begins to overlap a shape."""
+    def on_sensor_end(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """The same, when a sensor no longer overlaps a shape."""
+    def off(self, callback: Callable[[ContactEvent], object]) -> None:
+        """No longer calls a function with events."""
+    @property
+    def collision_filter(self) -> _Filter | None:
+        """(body_a, part_a, body_b, part_b) -> whether two shapes can touch at all."""
+    @collision_filter.setter
+    def collision_filter(self, value: _Filter | None, /) -> None: ...
+    @property
+    def pre_solve(self) -> _Hook | None:
+        """Called with each contact before it is solved; False disables it for the step."""
+    @pre_solve.setter
+    def pre_solve(self, value: _Hook | None, /) -> None: ...
     @property
     def gravity(self) -> Vec2:
         """Gravity (m/s²)."""

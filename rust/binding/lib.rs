@@ -10,11 +10,13 @@ mod arrays;
 mod body;
 mod body_def;
 mod catalogue;
+mod contacts;
 mod convert;
 mod drawing;
 mod error;
 mod field;
 mod found;
+mod hooks;
 mod law;
 mod mixing;
 mod observe;
@@ -45,11 +47,15 @@ mod culbuto_native {
         verify, verify_laws,
     };
     #[pymodule_export]
+    use crate::contacts::{Contact, ContactEvent, ContactEvents, Contacts, Events};
+    #[pymodule_export]
     use crate::error::{SceneFileError, SimulationError, StaleHandleError};
     #[pymodule_export]
     use crate::field::{Attraction, Central, Field, Oscillating};
     #[pymodule_export]
     use crate::found::{Distance, Nearest, RayHit};
+    #[pymodule_export]
+    use crate::hooks::PreSolve;
     #[pymodule_export]
     use crate::law::State;
     #[pymodule_export]

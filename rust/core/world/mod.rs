@@ -13,6 +13,7 @@ mod stepper;
 
 pub use bodies::{BodyMut, BodyRef};
 pub use columns::Column;
+pub use contacts::{Contact, ContactEvent, ContactHooks, Events, PreSolve, ShapeView};
 pub use plan::Plan;
 pub use queries::{Nearest, QueryFilter, RayHit, ShapeId, distance_between};
 pub use report::{StageTime, StepReport, Trajectory};
@@ -118,11 +119,13 @@ struct State {
 pub struct World {
     state: State,
     fields: Vec<Arc<dyn ForceField>>,
+    hooks: Option<Arc<dyn ContactHooks>>,
     method: &'static dyn Method,
     plan: Option<Plan>,
     /// Some body has a force for the next step.
     applied: bool,
     report: StepReport,
+    events: Events,
     scratch: WorldScratch,
     /// What has left the boxes of detection; found when a query asks for it. No part of the state, so that
     /// queries change nothing of what steps do.
@@ -173,10 +176,12 @@ impl World {
         Self {
             state,
             fields,
+            hooks: None,
             method,
             plan: None,
             applied,
             report: StepReport::default(),
+            events: Events::default(),
             scratch: WorldScratch::default(),
             strays: OnceLock::new(),
         }

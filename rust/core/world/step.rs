@@ -9,7 +9,7 @@ use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
-use crate::world::contacts::{ContactBackup, Patch};
+use crate::world::contacts::{Change, ContactBackup, Patch};
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -22,6 +22,8 @@ pub(super) struct Backup {
     contacts: Option<ContactBackup>,
     clock: Clock,
     ledger: Ledger,
+    /// What began or ended to touch and is not told yet.
+    changes: Vec<Change>,
 }
 
 /// The moving part of a world at the start of a step, to take the step again.
@@ -95,10 +97,17 @@ impl World {
             world.planned();
             Ok(())
         })?;
+        self.scratch.contacts.start = self.state.clock.now;
         if self.plan.as_ref().is_some_and(|plan| plan.colliding.is_empty()) {
             self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
         } else {
             self.collide_and_advance(dt)?;
+        }
+        if self.notices() {
+            self.stage("events", |world| {
+                world.notice();
+                Ok(())
+            })?;
         }
         self.stage("report", |world| world.finish(dt))
     }
@@ -106,12 +115,10 @@ impl World {
     /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
     /// the step is taken again with that in view.
     fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
+        let hits = self.events.hit.len();
         let mut spread = 0.0;
         for _ in 0..MOST_TRIES {
-            self.stage("detect", |world| {
-                world.detect(dt, spread);
-                Ok(())
-            })?;
+            self.stage("detect", |world| world.detect(dt, spread))?;
             self.stage("islands", |world| {
                 world.find_islands();
                 Ok(())
@@ -127,8 +134,15 @@ impl World {
             }
             spread = 2.0 * thrown;
             self.scratch.start.restore(&mut self.state);
+            self.events.hit.truncate(hits);
         }
         Ok(())
+    }
+
+    /// Whether something can begin or end to touch in a step.
+    fn notices(&self) -> bool {
+        let colliding = self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty());
+        colliding || self.state.contacts.touching.changed()
     }
 
     /// Runs a stage, timed if timing is on.
@@ -154,10 +168,12 @@ impl World {
             self.scratch.backup.save(&self.state, plan, self.applied);
         }
         let report = std::mem::take(&mut self.report);
+        self.events.clear();
         let result = work(self);
         if result.is_err() {
             self.applied = self.scratch.backup.restore(&mut self.state);
             self.report = report;
+            self.events.clear();
         }
         result
     }
@@ -218,6 +234,8 @@ impl World {
 
     /// Moves every body through a span at the fixed step.
     fn advance_span(&mut self, span: Span) -> Result<()> {
+        // First what touches, while bodies whose motion is given still stand where the step begins.
+        self.advance_contacts(span)?;
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
         let result = plan.runs().try_for_each(|run| {
@@ -228,8 +246,7 @@ impl World {
             self.advance_run(run, span, plan.resistance)
         });
         self.plan = Some(plan);
-        result?;
-        self.advance_contacts(span)
+        result
     }
 
     /// Moves the bodies whose solution is known.
@@ -331,6 +348,8 @@ impl Backup {
             self.contacts.get_or_insert_default().save(&state.contacts);
         }
         (self.clock, self.ledger) = (state.clock, state.ledger);
+        self.changes.clear();
+        self.changes.extend_from_slice(state.contacts.touching.changes());
     }
 
     /// Puts the state back, and says whether forces wait for the next step.
@@ -346,6 +365,8 @@ impl Backup {
             contacts.restore(&mut state.contacts);
         }
         (state.clock, state.ledger) = (self.clock, self.ledger);
+        state.contacts.touching.set_changes(&self.changes);
+        state.contacts.retell(state.bodies.handles());
         applied
     }
 }

@@ -68,10 +68,32 @@ pub struct Link {
     pub apart_now: bool,
     /// Points that are watched and stand beside the face, where there is nothing to touch.
     pub beside: [bool; 2],
-    /// Normal impulses of impacts in the step (N·s), for events.
-    pub impact: Real,
-    /// Fastest approach of an impact in the step (m/s).
+    /// Its impacts in the step.
+    pub hit: Hit,
+    /// Normal impulses of the rows in the step (N·s).
+    pub passed: Real,
+}
+
+/// Impacts of a contact in a step, for events. Time, place and speed are those of the fastest.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// Normal impulses of all (N·s).
+    pub impulse: Real,
+    /// Approach (m/s); 0 where there was none.
     pub approach: Real,
+    /// When (s).
+    pub time: Real,
+    /// Where, from A's centre of mass at the start of the step (m).
+    pub point: Vec2,
+    /// Normal, from A to B.
+    pub normal: Vec2,
+}
+
+impl Default for Hit {
+    fn default() -> Self {
+        let zero = Vec2::zeros();
+        Self { impulse: 0.0, approach: 0.0, time: 0.0, point: zero, normal: zero }
+    }
 }
 
 /// Bodies that move together, in slots, and their contacts. Kept between steps, so that a warm step
@@ -98,6 +120,8 @@ pub struct Group {
     pub driven: bool,
     /// Length of the substep (s).
     pub(super) h: Real,
+    /// World time in the middle of the substep (s).
+    pub(super) middle: Real,
     /// Velocities before the rows.
     pub(super) free: Vec<Twist>,
     /// Where impacts may come.

@@ -12,7 +12,7 @@ use super::path::{NEAR, Pair};
 use super::{Group, Outcome, Surroundings, Watched};
 use crate::body::ImpactLaw;
 use crate::constraints::contact::{Block, moved};
-use crate::math::{Real, Twist};
+use crate::math::{Real, Twist, Vec2};
 
 /// An impact that may come, the first on top of the heap.
 #[derive(Clone, Copy, Debug)]
@@ -297,9 +297,14 @@ fn strike(
         let given = super::group::driving_work(&block, (&impulse, link.tangent_speed), bodies);
         outcome.ledger.work += given;
     }
-    let link = &mut group.links[k];
-    link.impact += impulse[0] + impulse[1];
-    link.approach = link.approach.max(event.approach);
+    let hit = &mut group.links[k].hit;
+    hit.impulse += impulse[0] + impulse[1];
+    if event.approach > hit.approach {
+        (hit.approach, hit.time, hit.normal) = (event.approach, group.middle + time, block.normal);
+        let struck = (0..link.manifold.count).filter(|p| block.on[*p]);
+        let points = struck.clone().map(|p| at.surface_point(&link.manifold, p));
+        hit.point = places[0].way + points.sum::<Vec2>() / struck.count().max(1) as Real;
+    }
     let [a, b] = block.bodies;
     let before = [a, b].map(|slot| group.velocities[slot as usize].twist);
     block.push(crate::solvers::sweep::pair(&mut group.velocities, [a, b]), impulse);

@@ -23,7 +23,7 @@ use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
-pub use group::{Group, Link, Mass, Watched};
+pub use group::{Group, Hit, Link, Mass, Watched};
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {
@@ -85,6 +85,7 @@ pub fn run(
         around.accelerate(span.time(k) + h / 2.0, group)?;
         place_blocks(group);
         kick(group, h / 2.0);
+        group.middle = span.time(k) + h / 2.0;
         impacts::resolve(group, h, settings.law, (around, &mut outcome));
         kick(group, h / 2.0);
         solve_rows(group, h, settings, &mut outcome);
@@ -178,6 +179,9 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
     let (sweeps, residual) = sweep::solve(velocities, blocks, budget);
     outcome.sweeps += u64::from(sweeps);
     outcome.residual = outcome.residual.max(residual);
+    for (block, link) in blocks.iter().zip(links) {
+        link.passed += block.impulse[0] + block.impulse[1];
+    }
     group.book_rows(h, &mut outcome.ledger);
 }
 

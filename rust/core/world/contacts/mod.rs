@@ -5,13 +5,22 @@ mod backup;
 #[cfg(test)]
 mod coulomb;
 mod detect;
+mod events;
+mod hits;
+mod hooks;
 mod near;
 mod strays;
+mod touching;
+mod view;
 
 pub(super) use advance::ContactScratch;
 pub(super) use backup::ContactBackup;
+pub use events::{ContactEvent, Events};
+pub use hooks::{ContactHooks, PreSolve, ShapeView};
 pub(super) use near::{Near, Patch};
 pub(super) use strays::Strays;
+pub(super) use touching::Change;
+pub use view::Contact;
 
 use serde::{Deserialize, Serialize};
 
@@ -42,6 +51,8 @@ pub(super) struct Contacts {
     pub patches: Vec<Patch>,
     /// Length (s) of the substep that the remembered impulses are of.
     pub substep: Real,
+    /// Shapes that touch.
+    pub touching: touching::Touching,
     #[serde(skip)]
     map: PairMap,
     #[serde(skip)]
@@ -89,13 +100,13 @@ impl Contacts {
 
     /// Takes in a body that was edited.
     pub fn replace(&mut self, bodies: &Bodies, body: usize) {
-        self.take_out(body);
+        self.take_out(bodies, body);
         self.insert(bodies, body);
     }
 
-    /// Forgets a body; the last one takes its place.
-    pub fn remove(&mut self, body: usize) {
-        self.take_out(body);
+    /// Forgets a body that is still in the columns; the last one takes its place.
+    pub fn remove(&mut self, bodies: &Bodies, body: usize) {
+        self.take_out(bodies, body);
         self.of_body.swap_remove(body);
         self.frames.swap_remove(body);
         self.covered.swap_remove(body);
@@ -134,11 +145,12 @@ impl Contacts {
     }
 
     /// Derives what is not stored.
-    pub fn rebuild(&mut self) {
+    pub fn rebuild(&mut self, bodies: &Bodies) {
         self.map_pairs();
         self.frames.resize(self.of_body.len(), ORIGIN);
         self.covered.resize(self.of_body.len(), 0.0);
         self.touch_all();
+        self.retell(bodies.handles());
     }
 
     /// Derives the map of pairs.
@@ -168,7 +180,7 @@ impl Contacts {
         }
     }
 
-    fn take_out(&mut self, body: usize) {
+    fn take_out(&mut self, bodies: &Bodies, body: usize) {
         let proxies = std::mem::take(&mut self.of_body[body]);
         if proxies.is_empty() {
             return;
@@ -176,7 +188,8 @@ impl Contacts {
         for proxy in &proxies {
             self.broad.remove(*proxy);
         }
-        self.drop_near(|near, _| near.proxies.iter().any(|proxy| proxies.contains(proxy)));
+        let handles = bodies.handles();
+        self.drop_near(handles, |near, _| near.proxies.iter().any(|proxy| proxies.contains(proxy)));
     }
 
     fn body_of(&self, proxy: ProxyId) -> u32 {
