@@ -39,6 +39,14 @@ impl Islands {
         self.ends.clear();
     }
 
+    /// Makes one group of this many links.
+    pub fn unite_all(&mut self, links: usize) {
+        self.order.clear();
+        self.order.extend(0..links as u32);
+        self.ends.clear();
+        self.ends.push(links as u32);
+    }
+
     /// Number of groups.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -117,7 +117,7 @@ impl World {
     fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
         let hits = self.events.hit.len();
         let mut spread = 0.0;
-        for _ in 0..MOST_TRIES {
+        for tries in 1.. {
             self.stage("detect", |world| world.detect(dt, spread))?;
             self.stage("islands", |world| {
                 world.find_islands();
@@ -129,7 +129,7 @@ impl World {
             }
             self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
             let thrown = self.scratch.contacts.thrown;
-            if !watched || thrown == 0.0 {
+            if !watched || thrown == 0.0 || tries == MOST_TRIES {
                 break;
             }
             spread = 2.0 * thrown;

@@ -27,11 +27,16 @@ pub use group::{Group, Hit, Link, Mass, Watched};
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {
-    /// Writes the accelerations that hold over the substep around `time` into the places.
+    /// Writes the accelerations that hold over the substep of length h around a time into the places.
     ///
     /// # Errors
     /// Those of the user's fields.
-    fn accelerate(&mut self, time: Real, group: &mut Group) -> Result<()>;
+    fn accelerate(&mut self, span: (Real, Real), group: &mut Group) -> Result<()>;
+
+    /// Work (J) that forces without a potential did over the substep, its rows solved.
+    fn work(&mut self, _group: &Group) -> Real {
+        0.0
+    }
 
     /// Moves the bodies for a time h with no force but the air's and damping; returns what those take (J).
     ///
@@ -82,13 +87,14 @@ pub fn run(
     let h = span.h();
     for k in 0..span.substeps {
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
-        around.accelerate(span.time(k) + h / 2.0, group)?;
+        around.accelerate((span.time(k) + h / 2.0, h), group)?;
         place_blocks(group);
         kick(group, h / 2.0);
         group.middle = span.time(k) + h / 2.0;
         impacts::resolve(group, h, settings.law, (around, &mut outcome));
         kick(group, h / 2.0);
         solve_rows(group, h, settings, &mut outcome);
+        outcome.ledger.work += around.work(group);
         if group.watch.has_swift(group) {
             impacts::resolve_turned(group, h, settings.law, (around, &mut outcome));
         }

@@ -1,18 +1,19 @@
 //! The stage that moves what touches: each group of bodies that contacts tie by the contact step.
 
+use super::FAR;
 use super::hooks::Answer;
 use super::near::Kind;
-use super::{Contacts, FAR};
+use super::surroundings::{Fields, Still};
 use crate::body::Bodies;
-use crate::collision::{Frame, Manifold, Sweep, collide, first_impact};
+use crate::collision::Manifold;
 use crate::constraints::contact::Block;
 use crate::constraints::{Place, Velocity};
 use crate::error::Result;
-use crate::forces::{Air, drift_body, has_resistance};
+use crate::forces::Forces;
 use crate::islands::Islands;
-use crate::math::{Pose, Real, Twist, Vec2, Wrench};
+use crate::math::{Real, Twist, Vec2, Wrench};
 use crate::methods::Span;
-use crate::methods::contact_step::{self, Group, Hit, Link, Mass, Outcome, Surroundings, Watched};
+use crate::methods::contact_step::{self, Group, Hit, Link, Mass, Outcome, Watched};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -55,7 +56,7 @@ impl ContactScratch {
 impl World {
     /// Splits what touches into groups.
     pub(in crate::world) fn find_islands(&mut self) {
-        let Self { state, scratch, .. } = self;
+        let Self { state, scratch, plan, .. } = self;
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
         let ContactScratch { islands, links, solid, moved, answers, thrown, watched, .. } =
             &mut scratch.contacts;
@@ -76,7 +77,14 @@ impl World {
                 bodies.iter().for_each(|i| moved[*i as usize] = masses[*i as usize].is_free());
             }
         }
-        islands.split(masses.len(), links, |body| masses[body as usize].is_free());
+        // Fields act on all bodies at once, which then are one group.
+        let together = plan.as_ref().is_some_and(|plan| plan.together > 0) && !links.is_empty();
+        moved.iter_mut().for_each(|moved| *moved |= together);
+        if together {
+            islands.unite_all(links.len());
+        } else {
+            islands.split(masses.len(), links, |body| masses[body as usize].is_free());
+        }
     }
 
     /// Moves every group through a span.
@@ -95,7 +103,7 @@ impl World {
 
     /// Fills the group with the bodies and contacts of island k.
     fn gather(&mut self, k: usize, span: Span) {
-        let Self { state, scratch, .. } = self;
+        let Self { state, scratch, plan, .. } = self;
         let State { bodies, settings, contacts, .. } = state;
         let steady = &scratch.steady;
         let ContactScratch { islands, links, solid, group, slots, mark, answers, .. } =
@@ -104,19 +112,25 @@ impl World {
         *mark = mark.wrapping_add(1);
         slots.resize(bodies.len(), (0, 0));
         let h = span.h();
+        let mut slot_of = |group: &mut Group, body: u32| {
+            let entry = &mut slots[body as usize];
+            if entry.0 != *mark {
+                *entry = (*mark, group.bodies.len() as u32);
+                let steady = steady.get(body as usize).copied().unwrap_or(Wrench::ZERO);
+                add_body(group, bodies, body, (settings.gravity, steady));
+                group.reach.push(contacts.covered[body as usize]);
+            }
+            entry.1
+        };
+        if plan.as_ref().is_some_and(|plan| plan.together > 0) {
+            for body in 0..bodies.len() as u32 {
+                slot_of(group, body);
+            }
+        }
         for link in islands.group(k) {
             let pair = links[*link as usize];
             let place = solid[*link as usize];
-            let slots = pair.map(|body| {
-                let entry = &mut slots[body as usize];
-                if entry.0 != *mark {
-                    *entry = (*mark, group.bodies.len() as u32);
-                    let steady = steady.get(body as usize).copied().unwrap_or(Wrench::ZERO);
-                    add_body(group, bodies, body, (settings.gravity, steady));
-                    group.reach.push(contacts.covered[body as usize]);
-                }
-                entry.1
-            });
+            let slots = pair.map(|body| slot_of(group, body));
             let patch = &contacts.patches[place as usize];
             let near = &contacts.near[patch.near as usize];
             let touch = answers.get(place as usize).map_or(&near.touch, |answer| &answer.touch);
@@ -158,7 +172,7 @@ impl World {
     }
 
     fn step_group(&mut self, span: Span) -> Result<Outcome> {
-        let Self { state, scratch, plan, .. } = self;
+        let Self { state, scratch, plan, fields, report, .. } = self;
         let settings = contact_step::Settings {
             law: state.settings.impact_law,
             sweeps: state.settings.sweeps,
@@ -166,12 +180,41 @@ impl World {
         let resistance = plan.as_ref().is_some_and(|plan| plan.resistance);
         let (bodies, contacts) = (&state.bodies, &state.contacts);
         let mut around = Still { bodies, contacts, air: state.settings.air, resistance };
-        contact_step::run(&mut scratch.contacts.group, span, settings, &mut around)
+        if plan.as_ref().is_none_or(|plan| plan.together == 0) {
+            return contact_step::run(&mut scratch.contacts.group, span, settings, &mut around);
+        }
+        let forces = Forces {
+            handles: &bodies.map,
+            masses: &bodies.masses,
+            infos: &bodies.infos,
+            steady: &scratch.steady,
+            gravity: state.settings.gravity,
+            air: state.settings.air,
+            fields,
+            resistance,
+            buffers: &mut scratch.forces,
+            facets: Vec::new(),
+            kinked: false,
+            evaluations: 0,
+        };
+        let mut acting = Fields {
+            still: around,
+            forces,
+            poses: Vec::new(),
+            twists: Vec::new(),
+            accelerations: Vec::new(),
+            before: None,
+        };
+        let outcome = contact_step::run(&mut scratch.contacts.group, span, settings, &mut acting);
+        report.evaluations += acting.forces.evaluations;
+        outcome
     }
 
     /// Brings the group's motion and impulses back to the columns.
     fn scatter(&mut self, outcome: Outcome, span: Span) {
-        let Self { state, scratch, report, events, .. } = self;
+        let Self { state, scratch, report, events, plan, .. } = self;
+        // Fields book the work of steady forces with their own, and no one else moves the bodies then.
+        let together = plan.as_ref().is_some_and(|plan| plan.together > 0);
         let State { bodies, contacts, ledger, .. } = state;
         let group = &scratch.contacts.group;
         // Before the bodies move: hits are told from where they were.
@@ -179,13 +222,13 @@ impl World {
         for (slot, body) in group.bodies.iter().enumerate() {
             let (i, velocity, place) =
                 (*body as usize, &group.velocities[slot], &group.places[slot]);
-            if velocity.is_fixed() {
+            if velocity.is_fixed() && !together {
                 continue;
             }
             bodies.twists[i] = velocity.twist;
             bodies.poses[i].position += place.way;
             bodies.poses[i].angle += place.turn;
-            if let Some(steady) = scratch.steady.get(i) {
+            if let Some(steady) = scratch.steady.get(i).filter(|_| !together) {
                 let way = Twist::new(place.way, place.turn);
                 ledger.work += crate::forces::power(steady, &way, &bodies.masses[i]);
             }
@@ -232,50 +275,4 @@ fn is_swift(
     let turn = a.angular.abs() * reach_i + b.angular.abs() * reach_j;
     let way = (b.linear - a.linear).norm() + turn;
     way * h > FAR * width
-}
-
-/// Surroundings whose forces stay the same over a span.
-struct Still<'a> {
-    bodies: &'a Bodies,
-    contacts: &'a Contacts,
-    air: Air,
-    resistance: bool,
-}
-
-impl Surroundings for Still<'_> {
-    fn accelerate(&mut self, _time: Real, _group: &mut Group) -> Result<()> {
-        Ok(())
-    }
-
-    fn drift(&mut self, h: Real, group: &mut Group) -> Result<Real> {
-        let Group { bodies, velocities, places, .. } = group;
-        let mut dissipated = 0.0;
-        for (slot, (velocity, place)) in velocities.iter_mut().zip(places).enumerate() {
-            let i = bodies[slot] as usize;
-            let (mass, info) = (&self.bodies.masses[i], &self.bodies.infos[i]);
-            if !self.resistance || velocity.is_fixed() || !has_resistance(info, self.air) {
-                place.drift(&velocity.twist, h);
-                continue;
-            }
-            let before = mass.kinetic_energy(&velocity.twist);
-            let start = self.bodies.poses[i].angle + place.turn;
-            // Counted from where the body is, so that the way is not rounded at its place.
-            let mut pose = Pose::new(Vec2::zeros(), start);
-            drift_body(mass, info, self.air, (h, &mut pose, &mut velocity.twist))?;
-            place.way += pose.position;
-            place.rotate(pose.angle - start);
-            dissipated += before - mass.kinetic_energy(&velocity.twist);
-        }
-        Ok(dissipated)
-    }
-
-    fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)> {
-        let near = &self.contacts.near[self.contacts.patches[link.place as usize].near as usize];
-        let [a, b] = near.proxies.map(|p| &self.contacts.entries[p.0 as usize].collider.geometry);
-        let hit = first_impact((a, &ways[0]), (b, &ways[1]), target)?;
-        let [frame_a, frame_b] = [0, 1].map(|k| Frame::of(&ways[k].at(hit.fraction)));
-        let mut found = Vec::new();
-        collide(a, b, &frame_b.seen_from(&frame_a), 2.0 * target, &mut found);
-        found.first().map(|manifold| (hit.fraction, *manifold))
-    }
 }

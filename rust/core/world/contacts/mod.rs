@@ -10,6 +10,7 @@ mod hits;
 mod hooks;
 mod near;
 mod strays;
+mod surroundings;
 mod touching;
 mod view;
 
