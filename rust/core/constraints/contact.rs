@@ -84,6 +84,18 @@ pub struct Moved {
     pub gap: [Real; 2],
 }
 
+impl Moved {
+    /// Point k half-way between the surfaces, from A's centre of mass (m).
+    #[must_use]
+    pub fn surface_point(&self, manifold: &Manifold, k: usize) -> Vec2 {
+        let half = 0.5 * self.gap[k];
+        match manifold.normal {
+            Normal::OnA(_) => self.arms[k][0] - self.normal * (manifold.radius_b + half),
+            _ => self.arms[k][0] + self.normal * (manifold.radius_a + half),
+        }
+    }
+}
+
 /// Where a manifold is when its bodies have moved; `apart` leads from A's centre of mass to B's at the start.
 #[must_use]
 pub fn moved(manifold: &Manifold, apart: Vec2, [a, b]: [&Place; 2]) -> Moved {

@@ -2,14 +2,17 @@
 //! line and Python all use this one copy.
 
 mod drag;
+mod extremes;
 pub mod file;
 mod friction;
+mod gauge;
 mod impact;
 mod matter;
 mod newton;
 mod orbits;
 mod reversal;
 mod rotation;
+mod stacks;
 mod stage;
 
 pub use file::SceneFile;
@@ -163,6 +166,38 @@ pub static CATALOGUE: &[&Scene] = &[
     &friction::CONVEYOR,
     &friction::BOWL,
     &friction::DOMINOES,
+    &stacks::TEN,
+    &stacks::TWENTY,
+    &stacks::PYRAMID,
+    &extremes::GRAVITY,
+    &extremes::SIZES,
+    &extremes::SLIVERS,
+    &extremes::SPIN,
+    &extremes::OFFSET,
+    &extremes::CROWD,
+    &extremes::BAD_OUTLINES,
+    &extremes::STEPS,
+    &extremes::BAD_MATTER,
+    &extremes::GRAZING,
+    &extremes::REPEATS,
+    &extremes::RANDOM,
+];
+
+/// Scenes that take minutes; `make test-full` runs them.
+pub static LONG: &[&Scene] = &[
+    &stacks::LONG[0],
+    &stacks::LONG[1],
+    &stacks::LONG[2],
+    &extremes::ALL_RANDOM[0],
+    &extremes::ALL_RANDOM[1],
+    &extremes::ALL_RANDOM[2],
+    &extremes::ALL_RANDOM[3],
+    &extremes::ALL_RANDOM[4],
+    &extremes::ALL_RANDOM[5],
+    &extremes::ALL_RANDOM[6],
+    &extremes::ALL_RANDOM[7],
+    &extremes::ALL_RANDOM[8],
+    &extremes::ALL_RANDOM[9],
 ];
 
 /// The scene of this id or name, whatever the case.

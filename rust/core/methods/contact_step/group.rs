@@ -48,20 +48,52 @@ pub struct Link {
     pub width: Real,
     /// Where the contact is kept.
     pub place: u32,
-    /// J̇v of points that carry a load (m/s²).
+    /// J̇v of points that carry a load or are apart (m/s²).
     pub curvature: [Real; 2],
     /// The same along the surface where the load sticks to it.
     pub turning: Real,
     /// Tangential velocity (m/s) of B against A at which nothing slides.
     pub tangent_speed: Real,
+    /// Corners that come nearer and yet go past one another.
+    pub passes: [bool; 2],
     /// Approach (m/s) up to which a contact rests and does not bounce: what the substep's kicks give it.
     pub resting: [Real; 2],
     /// Whether arrivals are looked for.
     pub watched: Watched,
-    /// Normal impulses of impacts in the step (N·s), for events.
-    pub impact: Real,
-    /// Fastest approach of an impact in the step (m/s).
+    /// Where a swift contact is going to meet.
+    pub found: Manifold,
+    /// It met in this substep.
+    pub met: bool,
+    /// It is apart in this substep: no row.
+    pub apart_now: bool,
+    /// Points that are watched and stand beside the face, where there is nothing to touch.
+    pub beside: [bool; 2],
+    /// Its impacts in the step.
+    pub hit: Hit,
+    /// Normal impulses of the rows in the step (N·s).
+    pub passed: Real,
+}
+
+/// Impacts of a contact in a step, for events. Time, place and speed are those of the fastest.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// Normal impulses of all (N·s).
+    pub impulse: Real,
+    /// Approach (m/s); 0 where there was none.
     pub approach: Real,
+    /// When (s).
+    pub time: Real,
+    /// Where, from A's centre of mass at the start of the step (m).
+    pub point: Vec2,
+    /// Normal, from A to B.
+    pub normal: Vec2,
+}
+
+impl Default for Hit {
+    fn default() -> Self {
+        let zero = Vec2::zeros();
+        Self { impulse: 0.0, approach: 0.0, time: 0.0, point: zero, normal: zero }
+    }
 }
 
 /// Bodies that move together, in slots, and their contacts. Kept between steps, so that a warm step
@@ -88,6 +120,8 @@ pub struct Group {
     pub driven: bool,
     /// Length of the substep (s).
     pub(super) h: Real,
+    /// World time in the middle of the substep (s).
+    pub(super) middle: Real,
     /// Velocities before the rows.
     pub(super) free: Vec<Twist>,
     /// Where impacts may come.
@@ -109,9 +143,11 @@ impl Group {
         self.watch.clear();
     }
 
-    /// Whether a body has got farther than was foreseen when what it can meet was looked for.
-    pub(super) fn has_escaped(&self) -> bool {
-        self.places.iter().zip(&self.reach).any(|(place, reach)| place.way.norm() > *reach)
+    /// How far a body has got beyond what was foreseen when what it can meet was looked for (m).
+    pub(super) fn farthest_thrown(&self) -> Real {
+        let ways = self.places.iter().map(|place| place.way.norm());
+        let thrown = ways.zip(&self.reach).filter(|(way, reach)| way > *reach);
+        thrown.map(|(way, _)| way).fold(0.0, Real::max)
     }
 
     /// Books what the rows of a substep took from the bodies.

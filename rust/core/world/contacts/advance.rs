@@ -1,5 +1,6 @@
 //! The stage that moves what touches: each group of bodies that contacts tie by the contact step.
 
+use super::hooks::Answer;
 use super::near::Kind;
 use super::{Contacts, FAR};
 use crate::body::Bodies;
@@ -11,7 +12,7 @@ use crate::forces::{Air, drift_body, has_resistance};
 use crate::islands::Islands;
 use crate::math::{Pose, Real, Twist, Vec2, Wrench};
 use crate::methods::Span;
-use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Surroundings, Watched};
+use crate::methods::contact_step::{self, Group, Hit, Link, Mass, Outcome, Surroundings, Watched};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -22,22 +23,32 @@ pub(in crate::world) struct ContactScratch {
     links: Vec<[u32; 2]>,
     /// Patches of the links.
     solid: Vec<u32>,
-    group: Group,
+    pub(super) group: Group,
     /// Slot of each body in the group at work; valid where the mark is the group's.
     slots: Vec<(u32, u32)>,
     mark: u32,
     /// Bodies that the contact step has moved in this span.
     moved: Vec<bool>,
+    /// What the hooks said of each patch; empty where there are none.
+    pub answers: Vec<Answer>,
+    /// When the step began (s).
+    pub start: Real,
     /// Some body may bounce or moves far in a step.
     pub watched: bool,
-    /// A body was thrown farther than what it can meet was looked for.
-    pub escaped: bool,
+    /// How far a body was thrown that may have met what was not looked for (m).
+    pub thrown: Real,
 }
 
 impl ContactScratch {
     /// Whether the contact step moves a body in this span.
     pub fn moves(&self, body: usize) -> bool {
         self.moved.get(body).copied().unwrap_or(false)
+    }
+
+    /// Forgets the groups, where there is nothing to look for.
+    pub fn forget(&mut self) {
+        self.islands.clear();
+        self.moved.clear();
     }
 }
 
@@ -46,14 +57,17 @@ impl World {
     pub(in crate::world) fn find_islands(&mut self) {
         let Self { state, scratch, .. } = self;
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
-        let ContactScratch { islands, links, solid, moved, escaped, watched, .. } =
+        let ContactScratch { islands, links, solid, moved, answers, thrown, watched, .. } =
             &mut scratch.contacts;
         (links.clear(), solid.clear());
         moved.clear();
         moved.resize(masses.len(), false);
-        (*escaped, *watched) = (false, contacts.far);
+        (*thrown, *watched) = (0.0, contacts.far);
         for (place, patch) in contacts.patches.iter().enumerate() {
             let near = &contacts.near[patch.near as usize];
+            if answers.get(place).is_some_and(|answer| !answer.on) {
+                continue;
+            }
             if matches!(near.kind, Kind::Solid | Kind::OneWay { solid: true }) {
                 let bodies = near.proxies.map(|proxy| contacts.body_of(proxy));
                 links.push(bodies);
@@ -67,11 +81,14 @@ impl World {
 
     /// Moves every group through a span.
     pub(in crate::world) fn advance_contacts(&mut self, span: Span) -> Result<()> {
+        if self.scratch.contacts.islands.is_empty() {
+            return Ok(());
+        }
         self.state.contacts.scale_impulses(span.h());
         for k in 0..self.scratch.contacts.islands.len() {
             self.gather(k, span);
             let outcome = self.step_group(span)?;
-            self.scatter(outcome);
+            self.scatter(outcome, span);
         }
         Ok(())
     }
@@ -81,7 +98,7 @@ impl World {
         let Self { state, scratch, .. } = self;
         let State { bodies, settings, contacts, .. } = state;
         let steady = &scratch.steady;
-        let ContactScratch { islands, links, solid, group, slots, mark, .. } =
+        let ContactScratch { islands, links, solid, group, slots, mark, answers, .. } =
             &mut scratch.contacts;
         group.clear();
         *mark = mark.wrapping_add(1);
@@ -102,32 +119,39 @@ impl World {
             });
             let patch = &contacts.patches[place as usize];
             let near = &contacts.near[patch.near as usize];
+            let touch = answers.get(place as usize).map_or(&near.touch, |answer| &answer.touch);
             let [i, j] = pair.map(|body| body as usize);
             let apart = bodies.poses[j].position - bodies.poses[i].position;
             let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
             let width = x.width.min(y.width);
-            let swift = is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
-            group.driven |= near.touch.tangent_speed != 0.0;
-            let block = Block::new(slots, &patch.manifold, &near.touch, &patch.memory);
+            let swift = contacts.spread > FAR * width
+                || is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
+            group.driven |= touch.tangent_speed != 0.0;
+            let block = Block::new(slots, &patch.manifold, touch, &patch.memory);
             group.add_contact(
                 block,
                 Link {
                     manifold: patch.manifold,
                     apart,
-                    restitution: near.touch.restitution,
+                    restitution: touch.restitution,
                     width,
                     place,
                     curvature: [0.0; 2],
                     turning: 0.0,
-                    tangent_speed: near.touch.tangent_speed,
+                    tangent_speed: touch.tangent_speed,
+                    passes: [false; 2],
                     resting: [0.0; 2],
-                    watched: match (swift, near.touch.restitution > 0.0) {
+                    watched: match (swift, touch.restitution > 0.0) {
                         (true, _) => Watched::Swift,
                         (false, true) => Watched::Bounces,
                         (false, false) => Watched::No,
                     },
-                    impact: 0.0,
-                    approach: 0.0,
+                    found: patch.manifold,
+                    met: false,
+                    apart_now: false,
+                    beside: [false; 2],
+                    hit: Hit::default(),
+                    passed: 0.0,
                 },
             );
         }
@@ -146,10 +170,12 @@ impl World {
     }
 
     /// Brings the group's motion and impulses back to the columns.
-    fn scatter(&mut self, outcome: Outcome) {
-        let Self { state, scratch, report, .. } = self;
+    fn scatter(&mut self, outcome: Outcome, span: Span) {
+        let Self { state, scratch, report, events, .. } = self;
         let State { bodies, contacts, ledger, .. } = state;
         let group = &scratch.contacts.group;
+        // Before the bodies move: hits are told from where they were.
+        contacts.book_hits(bodies, group, span, &mut events.hit);
         for (slot, body) in group.bodies.iter().enumerate() {
             let (i, velocity, place) =
                 (*body as usize, &group.velocities[slot], &group.places[slot]);
@@ -168,7 +194,7 @@ impl World {
             contacts.patches[link.place as usize].memory = block.memory();
         }
         *ledger += outcome.ledger;
-        scratch.contacts.escaped |= outcome.escaped;
+        scratch.contacts.thrown = scratch.contacts.thrown.max(outcome.thrown);
         report.sweeps += outcome.sweeps;
         report.impacts += outcome.impacts;
         report.residual = report.residual.max(outcome.residual);
