@@ -19,7 +19,8 @@ class Scene:
     """A scene of the catalogue.
 
     `duration` (s), fixed step `dt` (s) and `tolerance` are those it is judged at, and `length` (m)
-    what its errors are relative to; None where the answer is not a motion but numbers.
+    what its errors are relative to; None where the answer is not a motion but numbers. Scenes with
+    contacts have no `tolerance` yet.
     """
 
     id: str

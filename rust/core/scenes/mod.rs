@@ -86,8 +86,7 @@ pub enum Judged {
     AsItComes,
     /// The engine as it comes: bodies that touch are moved by the contact step, whatever the method.
     Contact {
-        /// Its order is measured. Not where the motion has kinks that fall inside a substep, or none but
-        /// free flight.
+        /// Its order, 2, is measured. Not where the motion has impacts, or kinks that fall inside a substep.
         order: bool,
     },
 }
