@@ -228,11 +228,14 @@ def test_a_one_way_platform_lets_through_from_below() -> None:
 
 
 def test_a_world_with_hooks_that_know_it_is_freed() -> None:
-    world, _, _ = scene()
-    world.pre_solve = lambda contact: world is not None
-    world.on_hit(lambda event: print(world))
-    gone = weakref.ref(world)
-    del world
+    def make() -> weakref.ref[cb.World]:
+        world, _, box = scene()
+        world.pre_solve = lambda contact: world is not None
+        world.on_hit(lambda event: box.remove())
+        world.step(DT)
+        return weakref.ref(world)
+
+    gone = make()
     gc.collect()
     assert gone() is None
 
