@@ -7,7 +7,7 @@
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help report test check bench count peers peers-check docs package test-deep clean
+.PHONY: help report test check bench count peers peers-check docs package test-deep test-full clean
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
@@ -84,6 +84,10 @@ package: .venv/tools ## Source distribution, a wheel from it, and that wheel in 
 test-deep: .venv/tools ## The property tests with many more cases (tens of minutes)
 	PROPTEST_CASES=10000 cargo test --release --workspace --locked
 	CULBUTO_PROFILE=deep $(BIN)/pytest --numprocesses auto
+
+test-full: ## The scenes that take minutes, and docs/full-runs.md from them (half an hour)
+	cargo build --release --example full-runs --locked
+	$(CARGO_TARGET_DIR)/release/examples/full-runs > docs/full-runs.md
 
 clean: ## Remove everything that was made
 	rm -rf .venv target report dist

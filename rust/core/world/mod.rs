@@ -5,6 +5,7 @@ mod bodies;
 mod columns;
 mod contacts;
 mod plan;
+mod queries;
 mod report;
 mod snapshot;
 mod step;
@@ -14,11 +15,12 @@ pub use bodies::{BodyMut, BodyRef};
 pub use columns::Column;
 pub use contacts::{Contact, ContactEvent, ContactHooks, Events, PreSolve, ShapeView};
 pub use plan::Plan;
+pub use queries::{Nearest, QueryFilter, RayHit, ShapeId, distance_between};
 pub use report::{StageTime, StepReport, Trajectory};
 pub use snapshot::Snapshot;
 pub use stepper::{Frame, Stepper};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
@@ -125,6 +127,9 @@ pub struct World {
     report: StepReport,
     events: Events,
     scratch: WorldScratch,
+    /// What has left the boxes of detection; found when a query asks for it. No part of the state, so that
+    /// queries change nothing of what steps do.
+    strays: OnceLock<contacts::Strays>,
 }
 
 /// Columns a step works in; no part of the state.
@@ -178,6 +183,7 @@ impl World {
             report: StepReport::default(),
             events: Events::default(),
             scratch: WorldScratch::default(),
+            strays: OnceLock::new(),
         }
     }
 

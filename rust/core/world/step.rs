@@ -52,8 +52,8 @@ impl Start {
     }
 }
 
-/// How often a step may be halved because a body was thrown too far.
-const MOST_HALVINGS: u32 = 10;
+/// How often a step is taken because a body was thrown too far; the last time with what it got.
+const MOST_TRIES: u32 = 6;
 
 impl World {
     /// Moves the world on by dt (s), at a fixed step.
@@ -101,7 +101,7 @@ impl World {
         if self.plan.as_ref().is_some_and(|plan| plan.colliding.is_empty()) {
             self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
         } else {
-            self.collide_and_advance(dt, MOST_HALVINGS)?;
+            self.collide_and_advance(dt)?;
         }
         if self.notices() {
             self.stage("events", |world| {
@@ -113,26 +113,30 @@ impl World {
     }
 
     /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
-    /// the step is taken again in two halves.
-    fn collide_and_advance(&mut self, dt: Real, halvings: u32) -> Result<()> {
-        self.stage("detect", |world| world.detect(dt))?;
-        self.stage("islands", |world| {
-            world.find_islands();
-            Ok(())
-        })?;
-        let watched = halvings > 0 && self.scratch.contacts.watched;
+    /// the step is taken again with that in view.
+    fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
+        let mut spread = 0.0;
         let hits = self.events.hit.len();
-        if watched {
-            self.scratch.start.save(&self.state);
+        for _ in 0..MOST_TRIES {
+            self.stage("detect", |world| world.detect(dt, spread))?;
+            self.stage("islands", |world| {
+                world.find_islands();
+                Ok(())
+            })?;
+            let watched = self.scratch.contacts.watched;
+            if watched {
+                self.scratch.start.save(&self.state);
+            }
+            self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+            let thrown = self.scratch.contacts.thrown;
+            if !watched || thrown == 0.0 {
+                break;
+            }
+            spread = 2.0 * thrown;
+            self.scratch.start.restore(&mut self.state);
+            self.events.hit.truncate(hits);
         }
-        self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
-        if !(watched && self.scratch.contacts.escaped) {
-            return Ok(());
-        }
-        self.scratch.start.restore(&mut self.state);
-        self.events.hit.truncate(hits);
-        self.collide_and_advance(dt / 2.0, halvings - 1)?;
-        self.collide_and_advance(dt / 2.0, halvings - 1)
+        Ok(())
     }
 
     /// Whether something can begin or end to touch in a step.
@@ -159,6 +163,7 @@ impl World {
     /// Runs `work`; if it fails, the world is put back as it was.
     pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         self.planned();
+        self.strays.take();
         if let Some(plan) = &self.plan {
             self.scratch.backup.save(&self.state, plan, self.applied);
         }

@@ -25,16 +25,23 @@ pub struct Pair<'a> {
     pub velocities: [&'a Velocity; 2],
     /// Angles at the start of the step (rad).
     pub angles: [Real; 2],
+    /// The kick of the substep is over: the velocities stay.
+    pub kicked: bool,
+    /// Length of the substep (s).
+    pub h: Real,
 }
 
 impl Pair<'_> {
-    /// Places at a time from the middle: x + vτ + ½aτ².
+    /// Places at a time from the middle: x + vτ + ½aτ² + ⅛ah². A body in flight has fallen by ⅛ah² more in half a
+    /// substep than the half drift with the velocity of its start moved it, and its path has to begin where it was.
     #[must_use]
     pub fn places_at(&self, time: Real) -> [Place; 2] {
         let at = |side: usize| {
             let mut place = *self.places[side];
             place.drift(&self.velocities[side].twist, time);
-            place.drift(&place.kick(0.5 * time), time);
+            if !self.kicked {
+                place.drift(&place.kick(0.5), time * time + 0.25 * self.h * self.h);
+            }
             place
         };
         [at(0), at(1)]
@@ -45,7 +52,9 @@ impl Pair<'_> {
     pub fn velocities_at(&self, time: Real) -> [Velocity; 2] {
         let at = |side: usize| {
             let mut velocity = *self.velocities[side];
-            velocity.twist += self.places[side].kick(time);
+            if !self.kicked {
+                velocity.twist += self.places[side].kick(time);
+            }
             velocity
         };
         [at(0), at(1)]
@@ -67,12 +76,13 @@ impl Pair<'_> {
         [from, to]: [Real; 2],
         around: &dyn Surroundings,
     ) -> Option<(Arrival, Manifold)> {
-        // A shape that leaves one point of the other may still swing into another.
-        const TRIES: u32 = 16;
+        // Where shapes touch and do not approach, another point may still swing in: it has come when the distance is
+        // half of what it is.
+        let mut target = NEAR * self.link.width;
         let mut time = from;
-        while time < to {
+        while target > NEAREST * self.link.width && time < to {
             let ways = [0, 1].map(|side| self.way(side, [time, to]));
-            let (fraction, manifold) = around.meet(self.link, &ways, NEAR * self.link.width)?;
+            let (fraction, manifold) = around.meet(self.link, &ways, target)?;
             time += fraction * (to - time);
             let (places, velocities) = (self.places_at(time), self.velocities_at(time));
             let at = moved(&manifold, self.link.apart, [&places[0], &places[1]]);
@@ -82,13 +92,14 @@ impl Pair<'_> {
             if approach > resting {
                 return Some((Arrival { time, approach }, manifold));
             }
-            time += (to - from) / Real::from(TRIES);
+            let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
+            target = 0.5 * gap;
         }
         None
     }
 
     /// The way of a body between two times, from A's centre of mass at the start of the step.
-    fn way(&self, side: usize, times: [Real; 2]) -> Sweep {
+    pub fn way(&self, side: usize, times: [Real; 2]) -> Sweep {
         let start = if side == 0 { Vec2::zeros() } else { self.link.apart };
         let [from, to] = times.map(|time| {
             let place = &self.places_at(time)[side];
@@ -108,7 +119,8 @@ impl Pair<'_> {
             let (rate, bend) = self.rates(manifold, &at, k, (&places, &velocities));
             let gap = at.gap[k];
             if gap <= SAME * self.link.width && (step > 0 || gap <= 0.0) {
-                let arrives = -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link);
+                let arrives =
+                    -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link.width);
                 return arrives.then_some(Arrival { time, approach: -rate });
             }
             time += first_root(gap, rate, bend)?;
@@ -134,12 +146,15 @@ impl Pair<'_> {
         let pushed = along(&places[0].acceleration, &places[1].acceleration);
         let link = self.link;
         let bodies = [&places[0], &places[1]];
-        (rate, pushed + curvature(manifold, at, (link.apart, k), bodies, [va, vb]))
+        (rate, pushed + curvature(manifold, at, (link.apart, k), bodies, [va, vb])[0])
     }
 }
 
 /// Swift shapes meet when they are this part of the smaller width apart.
-pub const NEAR: Real = 1e-4;
+pub const NEAR: Real = 1e-2;
+
+/// Down to which part of it further points are told from those that touch.
+const NEAREST: Real = 1e-5;
 
 /// A gap below this part of the width is none.
 const SAME: Real = 1e-14;
@@ -155,13 +170,22 @@ fn first_root(gap: Real, rate: Real, bend: Real) -> Option<Real> {
 }
 
 /// Whether a point that arrives at the plane of a face meets the face.
-fn on_face(manifold: &Manifold, at: &Moved, k: usize, link: &Link) -> bool {
+pub(super) fn on_face(manifold: &Manifold, at: &Moved, k: usize, width: Real) -> bool {
     let along = perp(at.normal);
     let (place, [low, high]) = match manifold.normal {
         Normal::OnA(_) => (along.dot(&at.arms[k][0]), manifold.face),
         Normal::OnB(_) => (along.dot(&at.arms[k][1]), manifold.face),
         Normal::Between | Normal::Inside => return true,
     };
-    let margin = 1e-9 * link.width;
+    let margin = 1e-9 * width;
     place >= low - margin && place <= high + margin
+}
+
+/// Whether two corners, sharp or round, come nearer to one another and yet go past, on straight ways.
+pub fn passes(manifold: &Manifold, at: &Moved, k: usize, [va, vb]: [&Twist; 2]) -> bool {
+    let [on_a, on_b] = at.arms[k];
+    let rate = vb.at(on_b) - va.at(on_a);
+    let radii = manifold.radius_a + manifold.radius_b;
+    let aside = perp(at.normal).dot(&rate).abs();
+    manifold.normal == Normal::Between && (at.gap[k] + radii) * aside > radii * rate.norm()
 }

@@ -23,7 +23,7 @@ pub(in crate::world) struct ContactScratch {
     links: Vec<[u32; 2]>,
     /// Patches of the links.
     solid: Vec<u32>,
-    group: Group,
+    pub(super) group: Group,
     /// Slot of each body in the group at work; valid where the mark is the group's.
     slots: Vec<(u32, u32)>,
     mark: u32,
@@ -35,8 +35,8 @@ pub(in crate::world) struct ContactScratch {
     pub start: Real,
     /// Some body may bounce or moves far in a step.
     pub watched: bool,
-    /// A body was thrown farther than what it can meet was looked for.
-    pub escaped: bool,
+    /// How far a body was thrown that may have met what was not looked for (m).
+    pub thrown: Real,
 }
 
 impl ContactScratch {
@@ -57,12 +57,12 @@ impl World {
     pub(in crate::world) fn find_islands(&mut self) {
         let Self { state, scratch, .. } = self;
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
-        let ContactScratch { islands, links, solid, moved, answers, escaped, watched, .. } =
+        let ContactScratch { islands, links, solid, moved, answers, thrown, watched, .. } =
             &mut scratch.contacts;
         (links.clear(), solid.clear());
         moved.clear();
         moved.resize(masses.len(), false);
-        (*escaped, *watched) = (false, contacts.far);
+        (*thrown, *watched) = (0.0, contacts.far);
         for (place, patch) in contacts.patches.iter().enumerate() {
             let near = &contacts.near[patch.near as usize];
             if answers.get(place).is_some_and(|answer| !answer.on) {
@@ -124,7 +124,8 @@ impl World {
             let apart = bodies.poses[j].position - bodies.poses[i].position;
             let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
             let width = x.width.min(y.width);
-            let swift = is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
+            let swift = contacts.spread > FAR * width
+                || is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
             group.driven |= touch.tangent_speed != 0.0;
             let block = Block::new(slots, &patch.manifold, touch, &patch.memory);
             group.add_contact(
@@ -136,12 +137,19 @@ impl World {
                     width,
                     place,
                     curvature: [0.0; 2],
+                    turning: 0.0,
+                    tangent_speed: touch.tangent_speed,
+                    passes: [false; 2],
                     resting: [0.0; 2],
                     watched: match (swift, touch.restitution > 0.0) {
                         (true, _) => Watched::Swift,
                         (false, true) => Watched::Bounces,
                         (false, false) => Watched::No,
                     },
+                    found: patch.manifold,
+                    met: false,
+                    apart_now: false,
+                    beside: [false; 2],
                     hit: Hit::default(),
                     passed: 0.0,
                 },
@@ -186,7 +194,7 @@ impl World {
             contacts.patches[link.place as usize].memory = block.memory();
         }
         *ledger += outcome.ledger;
-        scratch.contacts.escaped |= outcome.escaped;
+        scratch.contacts.thrown = scratch.contacts.thrown.max(outcome.thrown);
         report.sweeps += outcome.sweeps;
         report.impacts += outcome.impacts;
         report.residual = report.residual.max(outcome.residual);

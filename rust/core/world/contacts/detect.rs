@@ -12,14 +12,15 @@ use crate::math::{Real, Vec2};
 use crate::world::World;
 
 impl World {
-    /// Broad phase, then narrow phase.
+    /// Broad phase, then narrow phase. Any body may be thrown as far as `spread` (m).
     ///
     /// # Errors
     /// What a hook reports.
-    pub(in crate::world) fn detect(&mut self, dt: Real) -> Result<()> {
+    pub(in crate::world) fn detect(&mut self, dt: Real, spread: Real) -> Result<()> {
         let Self { state, plan, scratch, hooks, .. } = self;
         let Some(plan) = plan else { return Ok(()) };
         let (contacts, bodies, settings) = (&mut state.contacts, &state.bodies, &state.settings);
+        contacts.spread = spread;
         let step = Step { dt, gravity: settings.gravity };
         contacts.follow(bodies, &plan.colliding, &step);
         contacts.pair_up(bodies, &settings.mixing, hooks.as_deref())?;
@@ -57,11 +58,15 @@ impl Contacts {
             let mut width = Real::INFINITY;
             for proxy in &self.of_body[i] {
                 let collider = &self.entries[proxy.0 as usize].collider;
-                self.broad.update(*proxy, &swept(collider, &frame, motion), margin(collider));
+                self.broad.update(
+                    *proxy,
+                    &swept(collider, &frame, motion, self.spread),
+                    margin(collider),
+                );
                 width = width.min(collider.width);
             }
-            self.covered[i] = motion.0.norm() + 0.5 * width;
-            self.far |= motion.0.norm() > FAR * width || motion.1 > FAR;
+            self.covered[i] = motion.0.norm().max(self.spread) + 0.5 * width;
+            self.far |= self.spread > 0.0 || motion.0.norm() > FAR * width || motion.1 > FAR;
         }
         self.moved = moved;
         self.moved.clear();
@@ -141,6 +146,7 @@ impl Contacts {
 
     /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
     fn find_manifolds(&mut self, bodies: &Bodies, step: &Step, found: &mut Vec<Manifold>) {
+        let spread = 2.0 * self.spread;
         let Self { entries, near, patches, before, frames, .. } = self;
         std::mem::swap(patches, before);
         patches.clear();
@@ -152,7 +158,7 @@ impl Contacts {
             }
             let [x, y] = pair.proxies.map(|proxy| &entries[proxy.0 as usize].collider);
             let [i, j] = [x.body as usize, y.body as usize];
-            let margin = 0.02 * x.width.min(y.width) + way_to_meet(bodies, step, [x, y]);
+            let margin = 0.02 * x.width.min(y.width) + way_to_meet(bodies, step, [x, y]) + spread;
             found.clear();
             collide(&x.geometry, &y.geometry, &frames[j].seen_from(&frames[i]), margin, found);
             if let Kind::OneWay { solid } = &mut pair.kind {

@@ -2,11 +2,14 @@
 
 mod advance;
 mod backup;
+#[cfg(test)]
+mod coulomb;
 mod detect;
 mod events;
 mod hits;
 mod hooks;
 mod near;
+mod strays;
 mod touching;
 mod view;
 
@@ -15,6 +18,7 @@ pub(super) use backup::ContactBackup;
 pub use events::{ContactEvent, Events};
 pub use hooks::{ContactHooks, PreSolve, ShapeView};
 pub(super) use near::{Near, Patch};
+pub(super) use strays::Strays;
 pub(super) use touching::Change;
 pub use view::Contact;
 
@@ -56,6 +60,9 @@ pub(super) struct Contacts {
     /// Frames of the bodies' centres of mass, in body order.
     #[serde(skip)]
     frames: Vec<Frame>,
+    /// How far any body may be thrown in the step (m), where one was thrown before; else 0.
+    #[serde(skip)]
+    pub spread: Real,
     /// Some body moves far in the step.
     #[serde(skip)]
     pub far: bool,
@@ -118,8 +125,14 @@ impl Contacts {
 
     /// Tells that the place of a body was set.
     pub fn touch(&mut self, body: usize) {
-        if self.has_shapes(body) {
-            self.moved.push(body as u32);
+        if !self.has_shapes(body) {
+            return;
+        }
+        self.moved.push(body as u32);
+        // Worlds that are set and never stepped must not gather names without end.
+        if self.moved.len() > 2 * self.of_body.len() {
+            self.moved.sort_unstable();
+            self.moved.dedup();
         }
     }
 
@@ -194,9 +207,9 @@ const FAR: Real = 0.25;
 
 /// The box of a collider on its way through a step: moved by `way`, or as far in any direction, and turned by any of
 /// the angles up to `turn`.
-fn swept(collider: &Collider, frame: &Frame, (way, turn): (Vec2, Real)) -> Aabb {
+fn swept(collider: &Collider, frame: &Frame, (way, turn): (Vec2, Real), spread: Real) -> Aabb {
     let here = collider.geometry.bounds_at(frame).grown(turn.min(2.0) * collider.reach);
-    let length = way.norm();
+    let length = way.norm().max(spread);
     if length > FAR * collider.width {
         return here.grown(length);
     }
