@@ -18,6 +18,7 @@ from typing import (
     SupportsIndex,
     TypeAlias,
     TypedDict,
+    TypeVar,
     final,
     type_check_only,
 )
@@ -36,8 +37,13 @@ __all__ = [
     "Central",
     "Chain",
     "Circle",
+    "Contact",
+    "ContactEvent",
+    "ContactEvents",
+    "Contacts",
     "Distance",
     "Energy",
+    "Events",
     "Facts",
     "Field",
     "Frame",
@@ -46,6 +52,7 @@ __all__ = [
     "Oscillating",
     "PairOfMaterials",
     "Polygon",
+    "PreSolve",
     "RayHit",
     "RayHits",
     "RegularPolygon",
@@ -1121,6 +1128,12 @@ class Schedule:
         """Removes the schedule from its world."""
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
 
+_IntArray: TypeAlias = NDArray[np.int64]
+_EventKind: TypeAlias = Literal["begin", "end", "hit", "sensor_begin", "sensor_end"]
+_Listener = TypeVar("_Listener", bound=Callable[[ContactEvent], object])
+_Filter: TypeAlias = Callable[[Body, int, Body, int], bool]
+_Hook: TypeAlias = Callable[[PreSolve], bool | None]
+
 @final
 class Contact:
     """Where two bodies touch: one or two points with one normal."""
@@ -1210,7 +1223,7 @@ class ContactEvent:
 
     @property
     def kind(self) -> _EventKind:
-        """"begin", "end", "hit", "sensor_begin" or "sensor_end"."""
+        """ "begin", "end", "hit", "sensor_begin" or "sensor_end"."""
     @property
     def time(self) -> float:
         """World time (s): of a hit its moment in the step, of all else the step's end."""

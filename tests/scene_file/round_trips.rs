@@ -229,6 +229,8 @@ proptest! {
         let mut again = read.world().unwrap();
         prop_assert_eq!(bits(&world), bits(&again), "{}", text);
         prop_assert_eq!(touch(&world), touch(&again), "{}", text);
+        // What contacts remember is not in the file: such a world starts its contacts anew.
+        prop_assume!(world.contacts().is_empty());
         for dt in [1.0 / 60.0, 0.004, 0.02] {
             let (one, other) = (world.step(dt), again.step(dt));
             prop_assert_eq!(one.is_ok(), other.is_ok());
