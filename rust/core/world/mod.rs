@@ -128,6 +128,7 @@ pub struct World {
 #[derive(Clone, Default)]
 struct WorldScratch {
     backup: step::Backup,
+    start: step::Start,
     steady: Vec<crate::math::Wrench>,
     forces: ForceBuffers,
     methods: Scratch,

@@ -9,6 +9,7 @@ use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
+use crate::world::contacts::Patch;
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -20,6 +21,35 @@ pub(super) struct Backup {
     clock: Clock,
     ledger: Ledger,
 }
+
+/// The moving part of a world at the start of a step, to take the step again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Start {
+    poses: Vec<Pose>,
+    twists: Vec<Twist>,
+    patches: Vec<Patch>,
+    clock: Clock,
+    ledger: Ledger,
+}
+
+impl Start {
+    fn save(&mut self, state: &State) {
+        self.poses.clone_from(&state.bodies.poses);
+        self.twists.clone_from(&state.bodies.twists);
+        self.patches.clone_from(&state.contacts.patches);
+        (self.clock, self.ledger) = (state.clock, state.ledger);
+    }
+
+    fn restore(&mut self, state: &mut State) {
+        state.bodies.poses.clone_from(&self.poses);
+        state.bodies.twists.clone_from(&self.twists);
+        state.contacts.patches.clone_from(&self.patches);
+        (state.clock, state.ledger) = (self.clock, self.ledger);
+    }
+}
+
+/// How often a step is taken because a body was thrown too far; the last time with what it got.
+const MOST_TRIES: u32 = 6;
 
 impl World {
     /// Moves the world on by dt (s), at a fixed step.
@@ -63,18 +93,40 @@ impl World {
             world.planned();
             Ok(())
         })?;
-        if self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty()) {
+        if self.plan.as_ref().is_some_and(|plan| plan.colliding.is_empty()) {
+            self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+        } else {
+            self.collide_and_advance(dt)?;
+        }
+        self.stage("report", |world| world.finish(dt))
+    }
+
+    /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
+    /// the step is taken again with that in view.
+    fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
+        let mut spread = 0.0;
+        for _ in 0..MOST_TRIES {
             self.stage("detect", |world| {
-                world.detect(dt);
+                world.detect(dt, spread);
                 Ok(())
             })?;
             self.stage("islands", |world| {
                 world.find_islands();
                 Ok(())
             })?;
+            let watched = self.scratch.contacts.watched;
+            if watched {
+                self.scratch.start.save(&self.state);
+            }
+            self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+            let thrown = self.scratch.contacts.thrown;
+            if !watched || thrown == 0.0 {
+                break;
+            }
+            spread = 2.0 * thrown;
+            self.scratch.start.restore(&mut self.state);
         }
-        self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
-        self.stage("report", |world| world.finish(dt))
+        Ok(())
     }
 
     /// Runs a stage, timed if timing is on.

@@ -24,6 +24,17 @@ impl Mass {
     }
 }
 
+/// Whether arrivals of a contact are looked for, so that an impact comes of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// No: its rows foresee it.
+    No,
+    /// It bounces: when the features that are nearest now meet.
+    Bounces,
+    /// It moves too far in a substep for its rows and features to foresee: when the shapes meet, wherever.
+    Swift,
+}
+
 /// What the step needs of a contact beside its rows.
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
@@ -43,8 +54,14 @@ pub struct Link {
     pub passes: [bool; 2],
     /// Approach (m/s) up to which a contact rests and does not bounce: what the substep's kicks give it.
     pub resting: [Real; 2],
-    /// Arrivals are looked for: it bounces, or moves too far in a substep for its rows to foresee.
-    pub watched: bool,
+    /// Whether arrivals are looked for.
+    pub watched: Watched,
+    /// Where a swift contact is going to meet.
+    pub found: Manifold,
+    /// It met in this substep.
+    pub met: bool,
+    /// It is apart in this substep: no row.
+    pub apart_now: bool,
     /// Normal impulses of impacts in the step (N·s), for events.
     pub impact: Real,
     /// Fastest approach of an impact in the step (m/s).
@@ -61,6 +78,10 @@ pub struct Group {
     pub velocities: Vec<Velocity>,
     /// Places.
     pub places: Vec<Place>,
+    /// Angles at the start of the step (rad).
+    pub angles: Vec<Real>,
+    /// How far from its start each body may get before what it can meet must be looked for anew (m).
+    pub reach: Vec<Real>,
     /// Masses.
     pub masses: Vec<Mass>,
     /// Rows.
@@ -82,10 +103,19 @@ impl Group {
         self.velocities.clear();
         self.places.clear();
         self.masses.clear();
+        self.angles.clear();
+        self.reach.clear();
         self.blocks.clear();
         self.links.clear();
         self.driven = false;
         self.watch.clear();
+    }
+
+    /// How far a body has got beyond what was foreseen when what it can meet was looked for (m).
+    pub(super) fn farthest_thrown(&self) -> Real {
+        let ways = self.places.iter().map(|place| place.way.norm());
+        let thrown = ways.zip(&self.reach).filter(|(way, reach)| way > *reach);
+        thrown.map(|(way, _)| way).fold(0.0, Real::max)
     }
 
     /// Books what the rows of a substep took from the bodies.
@@ -119,7 +149,7 @@ impl Group {
 
     /// Adds a contact, watched where it bounces or is swift.
     pub fn add_contact(&mut self, block: Block, link: Link) {
-        if link.watched {
+        if link.watched != Watched::No {
             self.watch.blocks.push(self.blocks.len() as u32);
         }
         self.blocks.push(block);

@@ -15,6 +15,7 @@ mod path;
 mod project;
 
 use crate::body::ImpactLaw;
+use crate::collision::{Manifold, Sweep};
 use crate::constraints::Place;
 use crate::constraints::contact::{Block, curvature, moved};
 use crate::error::Result;
@@ -22,7 +23,7 @@ use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
-pub use group::{Group, Link, Mass};
+pub use group::{Group, Link, Mass, Watched};
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {
@@ -37,6 +38,10 @@ pub trait Surroundings {
     /// # Errors
     /// Motion that the flow of the drag cannot give.
     fn drift(&mut self, h: Real, group: &mut Group) -> Result<Real>;
+
+    /// First fraction of the ways of the two bodies of a contact at which their shapes are within `target` (m) of
+    /// one another, and the manifold there. The ways are counted from A's centre of mass at the start of the step.
+    fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)>;
 }
 
 /// How hard to try.
@@ -59,6 +64,8 @@ pub struct Outcome {
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
     pub residual: Real,
+    /// How far a body was thrown that may have met what was not looked for (m); 0 where none was.
+    pub thrown: Real,
 }
 
 /// Moves a group through a span.
@@ -78,11 +85,17 @@ pub fn run(
         around.accelerate(span.time(k) + h / 2.0, group)?;
         place_blocks(group);
         kick(group, h / 2.0);
-        impacts::resolve(group, h, settings.law, &mut outcome);
+        impacts::resolve(group, h, settings.law, (around, &mut outcome));
         kick(group, h / 2.0);
         solve_rows(group, h, settings, &mut outcome);
+        if group.watch.has_swift(group) {
+            impacts::resolve_turned(group, h, settings.law, (around, &mut outcome));
+        }
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         outcome.ledger.correction_work += project::apart(group, h);
+        if !group.watch.blocks.is_empty() {
+            outcome.thrown = outcome.thrown.max(group.farthest_thrown());
+        }
     }
     Ok(outcome)
 }
@@ -164,6 +177,9 @@ fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
 /// touching: s + vh + ½J̇v·h² ≥ 0 in the next middle, where the curve opens. Under a load, a gap below what the curve
 /// itself opens in half a step counts as touching.
 fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real, bool) {
+    if link.apart_now {
+        return (0.0, false);
+    }
     let gap = block.gap[k];
     let bend = link.curvature[k] * h;
     let loaded = block.impulse[k] > 0.0;
@@ -171,7 +187,7 @@ fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real,
         return (if loaded { -0.5 * bend } else { 0.0 }, true);
     }
     // What arrives by an impact is not braked before, and what passes by not at all.
-    let arrives = link.watched && along < -link.resting[k];
+    let arrives = link.watched != Watched::No && along < -link.resting[k];
     let opening = if loaded { 0.0 } else { 0.5 * bend.max(0.0) };
     (-gap / h - opening, !arrives && !link.passes[k])
 }

@@ -1,19 +1,20 @@
 //! The stage that finds what touches or may touch during the step.
 
 use super::near::Kind;
-use super::{Contacts, Near, Patch, margin, swept};
+use super::{Contacts, FAR, Near, Patch, margin, swept};
 use crate::body::{Bodies, Mixing, Role};
-use crate::collision::{Frame, Manifold, ProxyId, collide};
+use crate::collision::{Collider, Frame, Manifold, ProxyId, collide};
 use crate::constraints::contact::Touch;
 use crate::math::{Real, Vec2};
 use crate::world::World;
 
 impl World {
-    /// Broad phase, then narrow phase.
-    pub(in crate::world) fn detect(&mut self, dt: Real) {
+    /// Broad phase, then narrow phase. Any body may be thrown as far as `spread` (m).
+    pub(in crate::world) fn detect(&mut self, dt: Real, spread: Real) {
         let Self { state, plan, scratch, .. } = self;
         let Some(plan) = plan else { return };
         let (contacts, bodies, settings) = (&mut state.contacts, &state.bodies, &state.settings);
+        contacts.spread = spread;
         let step = Step { dt, gravity: settings.gravity };
         contacts.follow(bodies, &plan.colliding, &step);
         contacts.pair_up(bodies, &settings.mixing);
@@ -41,15 +42,24 @@ impl Contacts {
     /// Moves the boxes after the bodies.
     fn follow(&mut self, bodies: &Bodies, moving: &[u32], step: &Step) {
         let moved = std::mem::take(&mut self.moved);
+        self.far = false;
         for body in moved.iter().chain(moving) {
             let i = *body as usize;
             let frame = Frame::of(&bodies.poses[i]);
             self.frames[i] = frame;
             let motion = step.motion(bodies, i);
+            let mut width = Real::INFINITY;
             for proxy in &self.of_body[i] {
                 let collider = &self.entries[proxy.0 as usize].collider;
-                self.broad.update(*proxy, &swept(collider, &frame, motion), margin(collider));
+                self.broad.update(
+                    *proxy,
+                    &swept(collider, &frame, motion, self.spread),
+                    margin(collider),
+                );
+                width = width.min(collider.width);
             }
+            self.covered[i] = motion.0.norm().max(self.spread) + 0.5 * width;
+            self.far |= self.spread > 0.0 || motion.0.norm() > FAR * width || motion.1 > FAR;
         }
         self.moved = moved;
         self.moved.clear();
@@ -113,6 +123,7 @@ impl Contacts {
 
     /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
     fn find_manifolds(&mut self, bodies: &Bodies, step: &Step, found: &mut Vec<Manifold>) {
+        let spread = 2.0 * self.spread;
         let Self { entries, near, patches, before, frames, .. } = self;
         std::mem::swap(patches, before);
         patches.clear();
@@ -121,8 +132,7 @@ impl Contacts {
             (pair.first, pair.count) = (patches.len() as u32, 0);
             let [x, y] = pair.proxies.map(|proxy| &entries[proxy.0 as usize].collider);
             let [i, j] = [x.body as usize, y.body as usize];
-            let reach = way_to_meet(bodies, step, [(i, x.reach), (j, y.reach)]);
-            let margin = 0.02 * x.width.min(y.width) + reach;
+            let margin = 0.02 * x.width.min(y.width) + way_to_meet(bodies, step, [x, y]) + spread;
             found.clear();
             collide(&x.geometry, &y.geometry, &frames[j].seen_from(&frames[i]), margin, found);
             for manifold in &*found {
@@ -133,18 +143,19 @@ impl Contacts {
     }
 }
 
-/// How far two bodies can come together in a step (m).
-fn way_to_meet(
-    bodies: &Bodies,
-    step: &Step,
-    [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
-) -> Real {
-    let ((way_i, turn_i), (way_j, turn_j)) = (step.motion(bodies, i), step.motion(bodies, j));
-    (way_j - way_i).norm() + turn_i.min(2.0) * reach_i + turn_j.min(2.0) * reach_j
+/// How far two colliders can come together in a step (m). One that moves far may bounce, so that it counts by itself;
+/// slower ones count by how they move against one another.
+fn way_to_meet(bodies: &Bodies, step: &Step, pair: [&Collider; 2]) -> Real {
+    let motions = pair.map(|collider| step.motion(bodies, collider.body as usize));
+    let turns: Real = (0..2).map(|k| motions[k].1.min(2.0) * pair[k].reach).sum();
+    let lengths = motions.map(|(way, _)| way.norm());
+    let far = (0..2).any(|k| lengths[k] > FAR * pair[k].width);
+    let ways = if far { lengths[0] + lengths[1] } else { (motions[1].0 - motions[0].0).norm() };
+    ways + turns
 }
 
 /// What the surfaces of two colliders make of their values.
-fn touch(bodies: &Bodies, mixing: &Mixing, colliders: [&crate::collision::Collider; 2]) -> Touch {
+fn touch(bodies: &Bodies, mixing: &Mixing, colliders: [&Collider; 2]) -> Touch {
     let [a, b] = colliders.map(|collider| {
         let def = &bodies.infos[collider.body as usize].def;
         def.surface_of(&def.shapes[collider.part as usize])

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::{Bodies, Filter, Role};
 use crate::collision::{BroadPhase, Collider, Frame, PairMap, ProxyId, colliders};
-use crate::math::{Real, Rot, vec2};
+use crate::math::{Real, Rot, Vec2, vec2};
 use crate::shapes::Aabb;
 
 /// One collider of a body, and what its part says of it.
@@ -43,6 +43,16 @@ pub(super) struct Contacts {
     /// Frames of the bodies' centres of mass, in body order.
     #[serde(skip)]
     frames: Vec<Frame>,
+    /// How far any body may be thrown in the step (m), where one was thrown before; else 0.
+    #[serde(skip)]
+    pub spread: Real,
+    /// Some body moves far in the step.
+    #[serde(skip)]
+    pub far: bool,
+    /// How far from where it is each body can get before what it can meet must be looked for anew (m), in body
+    /// order.
+    #[serde(skip)]
+    covered: Vec<Real>,
     /// Bodies whose place was set since the last detection.
     #[serde(skip)]
     moved: Vec<u32>,
@@ -67,6 +77,7 @@ impl Contacts {
     pub fn add(&mut self, bodies: &Bodies) {
         self.of_body.push(Vec::new());
         self.frames.push(ORIGIN);
+        self.covered.push(0.0);
         self.insert(bodies, bodies.len() - 1);
     }
 
@@ -81,6 +92,7 @@ impl Contacts {
         self.take_out(body);
         self.of_body.swap_remove(body);
         self.frames.swap_remove(body);
+        self.covered.swap_remove(body);
         let last = self.of_body.len() as u32;
         self.moved.retain(|moved| *moved as usize != body);
         self.moved
@@ -113,6 +125,7 @@ impl Contacts {
     pub fn rebuild(&mut self) {
         self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
         self.frames.resize(self.of_body.len(), ORIGIN);
+        self.covered.resize(self.of_body.len(), 0.0);
         self.touch_all();
     }
 
@@ -159,8 +172,16 @@ fn margin(collider: &Collider) -> Real {
     0.1 * collider.width
 }
 
-/// The box of a collider on its way through a step: moved by `way`, and turned by any of the angles up to `turn`.
-fn swept(collider: &Collider, frame: &Frame, (way, turn): (crate::math::Vec2, Real)) -> Aabb {
+/// A motion beyond this part of a collider's width is a far one: the collider may bounce and end up anywhere around.
+const FAR: Real = 0.25;
+
+/// The box of a collider on its way through a step: moved by `way`, or as far in any direction, and turned by any of
+/// the angles up to `turn`.
+fn swept(collider: &Collider, frame: &Frame, (way, turn): (Vec2, Real), spread: Real) -> Aabb {
     let here = collider.geometry.bounds_at(frame).grown(turn.min(2.0) * collider.reach);
+    let length = way.norm().max(spread);
+    if length > FAR * collider.width {
+        return here.grown(length);
+    }
     here.merged(&Aabb { min: here.min + way, max: here.max + way })
 }
