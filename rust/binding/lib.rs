@@ -14,10 +14,12 @@ mod convert;
 mod drawing;
 mod error;
 mod field;
+mod found;
 mod law;
 mod mixing;
 mod observe;
 mod parts;
+mod queries;
 mod record;
 mod scene_file;
 mod schedule;
@@ -47,11 +49,15 @@ mod culbuto_native {
     #[pymodule_export]
     use crate::field::{Attraction, Central, Field, Oscillating};
     #[pymodule_export]
+    use crate::found::{Distance, Nearest, RayHit};
+    #[pymodule_export]
     use crate::law::State;
     #[pymodule_export]
     use crate::mixing::PairOfMaterials;
     #[pymodule_export]
     use crate::observe::{Energy, Facts, methods};
+    #[pymodule_export]
+    use crate::queries::RayHits;
     #[pymodule_export]
     use crate::scene_file::{SceneFile, scene_schema};
     #[pymodule_export]

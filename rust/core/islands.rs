@@ -34,6 +34,11 @@ impl Islands {
         self.sort(links, &ties);
     }
 
+    /// Forgets all groups.
+    pub fn clear(&mut self) {
+        self.ends.clear();
+    }
+
     /// Number of groups.
     #[must_use]
     pub fn len(&self) -> usize {

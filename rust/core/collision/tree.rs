@@ -7,11 +7,11 @@
 //! grandchild change places where that makes a box smaller (tree rotations: Kensler 2008; Catto, "Dynamic
 //! bounding volume hierarchies", GDC 2019). So the tree depends on the order of the calls alone.
 
-mod cast;
+mod search;
 
 use serde::{Deserialize, Serialize};
 
-pub(super) use cast::BoxCast;
+pub(super) use search::BoxCast;
 
 use crate::math::Real;
 use crate::shapes::Aabb;
@@ -36,11 +36,25 @@ impl Node {
 }
 
 /// The tree. Leaves are named by node numbers that stay until the leaf is removed.
-#[derive(Clone, Debug, Serialize, Deserialize)]
+#[derive(Debug, Serialize, Deserialize)]
 pub(super) struct Tree {
     nodes: Vec<Node>,
     root: u32,
     free: u32,
+}
+
+// By hand, so that a copy into an old one keeps its memory.
+impl Clone for Tree {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    fn clone_from(&mut self, from: &Self) {
+        self.nodes.clone_from(&from.nodes);
+        (self.root, self.free) = (from.root, from.free);
+    }
 }
 
 impl Default for Tree {

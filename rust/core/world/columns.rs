@@ -106,6 +106,10 @@ impl World {
             }
         }
         let vector = |i: usize| Vec2::new(values[2 * i], values[2 * i + 1]);
+        if matches!(column, Column::Positions | Column::Angles) {
+            self.state.contacts.touch_all();
+            self.strays.take();
+        }
         let bodies = &mut self.state.bodies;
         match column {
             Column::Positions => (0..n).for_each(|i| {

@@ -5,6 +5,7 @@ mod bodies;
 mod columns;
 mod contacts;
 mod plan;
+mod queries;
 mod report;
 mod snapshot;
 mod step;
@@ -13,11 +14,12 @@ mod stepper;
 pub use bodies::{BodyMut, BodyRef};
 pub use columns::Column;
 pub use plan::Plan;
+pub use queries::{Nearest, QueryFilter, RayHit, ShapeId, distance_between};
 pub use report::{StageTime, StepReport, Trajectory};
 pub use snapshot::Snapshot;
 pub use stepper::{Frame, Stepper};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
@@ -122,6 +124,9 @@ pub struct World {
     applied: bool,
     report: StepReport,
     scratch: WorldScratch,
+    /// What has left the boxes of detection; found when a query asks for it. No part of the state, so that
+    /// queries change nothing of what steps do.
+    strays: OnceLock<contacts::Strays>,
 }
 
 /// Columns a step works in; no part of the state.
@@ -173,6 +178,7 @@ impl World {
             applied,
             report: StepReport::default(),
             scratch: WorldScratch::default(),
+            strays: OnceLock::new(),
         }
     }
 

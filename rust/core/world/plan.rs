@@ -79,8 +79,12 @@ fn count(n: usize) -> String {
 
 impl World {
     pub(super) fn planned(&mut self) -> &Plan {
-        let Self { plan, state, fields, .. } = self;
-        plan.get_or_insert_with(|| Plan::new(state, fields.len()))
+        let Self { plan, state, fields, scratch, .. } = self;
+        plan.get_or_insert_with(|| {
+            // Groups of bodies that may be gone.
+            scratch.contacts.forget();
+            Plan::new(state, fields.len())
+        })
     }
 
     /// The stages a step of this world runs, which bodies each moves and how, and the time of each in

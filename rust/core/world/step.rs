@@ -9,7 +9,7 @@ use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
-use crate::world::contacts::Patch;
+use crate::world::contacts::{ContactBackup, Patch};
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -18,6 +18,8 @@ pub(super) struct Backup {
     moving: Vec<(usize, Pose, Twist)>,
     /// Forces for the next step; empty where there are none.
     applied: Vec<Wrench>,
+    /// Contacts, where the plan looks for any.
+    contacts: Option<ContactBackup>,
     clock: Clock,
     ledger: Ledger,
 }
@@ -147,6 +149,7 @@ impl World {
     /// Runs `work`; if it fails, the world is put back as it was.
     pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         self.planned();
+        self.strays.take();
         if let Some(plan) = &self.plan {
             self.scratch.backup.save(&self.state, plan, self.applied);
         }
@@ -322,6 +325,11 @@ impl Backup {
         if applied {
             self.applied.extend_from_slice(&bodies.applied);
         }
+        if plan.colliding.is_empty() {
+            self.contacts = None;
+        } else {
+            self.contacts.get_or_insert_default().save(&state.contacts);
+        }
         (self.clock, self.ledger) = (state.clock, state.ledger);
     }
 
@@ -333,6 +341,9 @@ impl Backup {
         let applied = !self.applied.is_empty();
         if applied {
             state.bodies.applied.clone_from(&self.applied);
+        }
+        if let Some(contacts) = &self.contacts {
+            contacts.restore(&mut state.contacts);
         }
         (state.clock, state.ledger) = (self.clock, self.ledger);
         applied

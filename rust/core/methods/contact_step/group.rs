@@ -50,6 +50,10 @@ pub struct Link {
     pub place: u32,
     /// J̇v of points that carry a load or are apart (m/s²).
     pub curvature: [Real; 2],
+    /// The same along the surface where the load sticks to it.
+    pub turning: Real,
+    /// Tangential velocity (m/s) of B against A at which nothing slides.
+    pub tangent_speed: Real,
     /// Corners that come nearer and yet go past one another.
     pub passes: [bool; 2],
     /// Approach (m/s) up to which a contact rests and does not bounce: what the substep's kicks give it.
@@ -62,6 +66,8 @@ pub struct Link {
     pub met: bool,
     /// It is apart in this substep: no row.
     pub apart_now: bool,
+    /// Points that are watched and stand beside the face, where there is nothing to touch.
+    pub beside: [bool; 2],
     /// Normal impulses of impacts in the step (N·s), for events.
     pub impact: Real,
     /// Fastest approach of an impact in the step (m/s).
@@ -90,6 +96,8 @@ pub struct Group {
     pub links: Vec<Link>,
     /// Some surface is driven: a kinematic body or a conveyor.
     pub driven: bool,
+    /// Length of the substep (s).
+    pub(super) h: Real,
     /// Velocities before the rows.
     pub(super) free: Vec<Twist>,
     /// Where impacts may come.
@@ -140,11 +148,11 @@ impl Group {
     }
 
     fn driving_work(&self) -> Real {
-        let work = |block: &Block| {
+        let work = |(block, link): (&Block, &Link)| {
             let bodies = block.bodies.map(|slot| &self.velocities[slot as usize]);
-            driving_work(block, &block.impulse, bodies)
+            driving_work(block, (&block.impulse, link.tangent_speed), bodies)
         };
-        self.blocks.iter().map(work).sum()
+        self.blocks.iter().zip(&self.links).map(work).sum()
     }
 
     /// Adds a contact, watched where it bounces or is swift.
@@ -158,9 +166,13 @@ impl Group {
 }
 
 /// Work (J) that bodies with given motion and conveyors do through the impulses of a block.
-pub(super) fn driving_work(block: &Block, impulse: &[Real; 3], [a, b]: [&Velocity; 2]) -> Real {
+pub(super) fn driving_work(
+    block: &Block,
+    (impulse, tangent_speed): (&[Real; 3], Real),
+    [a, b]: [&Velocity; 2],
+) -> Real {
     let (n, t) = (block.normal, block.tangent());
-    let mut work = impulse[2] * block.target[2];
+    let mut work = impulse[2] * tangent_speed;
     for (k, direction) in [n, n, t].into_iter().enumerate() {
         let [arm_a, arm_b] = block.arms[k];
         // On the other body acts p along the direction; at the speed of the surface it does this work.

@@ -118,6 +118,7 @@ pub fn resolve(
     }
     let mut watch = std::mem::take(&mut group.watch);
     watch.start(group, -h / 2.0);
+    group.h = h;
     for k in &watch.blocks {
         set_resting(group, *k as usize, h);
         group.links[*k as usize].met = false;
@@ -125,7 +126,7 @@ pub fn resolve(
     strike_all(group, &mut watch, h / 2.0, law, (around, outcome));
     for k in &watch.blocks {
         if group.links[*k as usize].watched == Watched::Swift {
-            look_again(group, *k as usize, around);
+            look_again(group, &watch, *k as usize, around);
         }
     }
     if watch.seen.iter().any(|seen| *seen > 0) {
@@ -188,10 +189,13 @@ fn strike_all(
 }
 
 /// Which features of a swift contact touch now, for its rows: those that met in an impact, or those that the middle of
-/// the substep shows; none if the shapes are apart there.
-fn look_again(group: &mut Group, k: usize, around: &dyn Surroundings) {
+/// the substep shows, or the moment of the last impact after it, since before that a body's way is not its own; none if
+/// the shapes are apart there.
+fn look_again(group: &mut Group, watch: &Watch, k: usize, around: &dyn Surroundings) {
+    let [since_a, since_b] = group.blocks[k].bodies.map(|slot| watch.since[slot as usize]);
+    let now = since_a.max(since_b).max(0.0);
     let pair = pair(group, k, false);
-    let middle = [0, 1].map(|side| pair.way(side, [0.0, 0.0]));
+    let middle = [0, 1].map(|side| pair.way(side, [now, now]));
     let link = &mut group.links[k];
     if !link.met {
         let touching = around.meet(link, &middle, NEAR * link.width);
@@ -200,7 +204,7 @@ fn look_again(group: &mut Group, k: usize, around: &dyn Surroundings) {
     }
     let block = &mut group.blocks[k];
     (block.impulse, block.count) = ([0.0; 3], link.manifold.count as u8);
-    super::place_block(group, k);
+    super::place_block(group, k, now);
 }
 
 /// The approach that the kicks of the substep give a contact by themselves, and rounding.
@@ -250,6 +254,7 @@ fn pair(group: &Group, k: usize, kicked: bool) -> Pair<'_> {
         velocities: [&group.velocities[a], &group.velocities[b]],
         angles: [group.angles[a], group.angles[b]],
         kicked,
+        h: group.h,
     }
 }
 
@@ -289,7 +294,7 @@ fn strike(
     outcome.impacts += 1;
     outcome.ledger.dissipated -= law::gain(&block, &u, &impulse);
     if group.driven {
-        let given = super::group::driving_work(&block, &impulse, bodies);
+        let given = super::group::driving_work(&block, (&impulse, link.tangent_speed), bodies);
         outcome.ledger.work += given;
     }
     let link = &mut group.links[k];
@@ -305,12 +310,14 @@ fn strike(
     }
 }
 
-/// Takes the geometry of the middle anew where an impact moved it.
+/// Takes the geometry anew where an impact moved it: that of the middle, or of the last impact if it came after,
+/// because the path that the bodies take from there was not theirs before.
 fn place_struck(group: &mut Group, watch: &Watch) {
     for k in 0..group.blocks.len() {
-        let struck = |slot: &u32| watch.seen[*slot as usize] > 0;
-        if group.blocks[k].bodies.iter().any(struck) {
-            super::place_block(group, k);
+        let slots = group.blocks[k].bodies.map(|slot| slot as usize);
+        if slots.iter().any(|slot| watch.seen[*slot] > 0) {
+            let time = slots.map(|slot| watch.since[slot]);
+            super::place_block(group, k, time[0].max(time[1]).max(0.0));
         }
     }
 }

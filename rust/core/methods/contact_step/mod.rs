@@ -103,26 +103,45 @@ pub fn run(
 /// Geometry of the midpoint.
 fn place_blocks(group: &mut Group) {
     for k in 0..group.blocks.len() {
-        place_block(group, k);
+        place_block(group, k, 0.0);
     }
 }
 
-fn place_block(group: &mut Group, k: usize) {
+/// Geometry of block k at a time from the middle.
+fn place_block(group: &mut Group, k: usize, time: Real) {
     let Group { velocities, places, blocks, links, .. } = group;
     let (block, link) = (&mut blocks[k], &mut links[k]);
     let [a, b] = block.bodies.map(|slot| slot as usize);
-    let bodies = [&places[a], &places[b]];
+    let later: [Place; 2];
+    let bodies = if time > 0.0 {
+        later = [a, b].map(|slot| {
+            let mut place = places[slot];
+            place.drift(&velocities[slot].twist, time);
+            place
+        });
+        [&later[0], &later[1]]
+    } else {
+        [&places[a], &places[b]]
+    };
     let at = moved(&link.manifold, link.apart, bodies);
     block.place(&link.manifold, &at, [&velocities[a], &velocities[b]]);
+    block.target[2] = link.tangent_speed;
+    link.turning = 0.0;
+    let load = block.impulse[0] + block.impulse[1];
     let twists = [&velocities[a].twist, &velocities[b].twist];
     for p in 0..link.manifold.count {
+        link.beside[p] =
+            link.watched == Watched::Bounces && !path::on_face(&link.manifold, &at, p, link.width);
         let (loaded, apart) = (block.impulse[p] > 0.0, at.gap[p] > 0.0);
         link.passes[p] = !loaded && apart && path::passes(&link.manifold, &at, p, twists);
-        link.curvature[p] = if loaded || apart {
-            curvature(&link.manifold, &at, (link.apart, p), bodies, twists)
-        } else {
-            0.0
-        };
+        link.curvature[p] = 0.0;
+        if loaded || apart {
+            let [normal, tangent] = curvature(&link.manifold, &at, (link.apart, p), bodies, twists);
+            link.curvature[p] = normal;
+            // Of several points the friction acts as if at the one where their load is.
+            let share = if block.sliding || !loaded { 0.0 } else { block.impulse[p] / load };
+            link.turning += share * tangent;
+        }
     }
 }
 
@@ -144,9 +163,12 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
         let bodies = [&velocities[a], &velocities[b]];
         let along = block.velocity(bodies);
         for k in 0..link.manifold.count {
-            let (target, on) = row(link, (block, k), along[k], h);
+            let (target, on) =
+                row(link, (block, k), (along[k], kicked(block, k, [&places[a], &places[b]], h)), h);
             (block.target[k], block.on[k]) = (target, on);
         }
+        // What sticks obeys J(v⁻ + v⁺) = 0 along the surface as well, so that a rod that pivots keeps its energy.
+        block.target[2] = link.tangent_speed - 0.5 * h * link.turning;
         block.prepare(bodies);
         fastest = fastest.max(kick_along(block, [&places[a], &places[b]], h));
     }
@@ -171,23 +193,41 @@ fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
     block.normal.dot(&apart).abs() * h
 }
 
+/// A contact that persists leaves as fast as it came, but for the change of its curvature. One that should leave
+/// faster than this many times that does not persist: pushed so, it would gain energy.
+const PERSISTS: Real = 1.5;
+
+/// Velocity of row k that a kick of length h gives.
+fn kicked(block: &Block, k: usize, [a, b]: [&Place; 2], h: Real) -> Real {
+    let (a, b) = (&a.acceleration, &b.acceleration);
+    let spin = block.arms[k][1] * b.angular - block.arms[k][0] * a.angular;
+    (block.normal.dot(&(b.linear - a.linear)) + spin) * h
+}
+
 /// Target of a normal row, and whether it takes part.
 ///
 /// Touching: v ≥ 0, or along a curve v ≥ −½h·J̇v, which with the velocity before makes J(v⁻ + v⁺) = 0. Not yet
 /// touching: s + vh + ½J̇v·h² ≥ 0 in the next middle, where the curve opens. Under a load, a gap below what the curve
 /// itself opens in half a step counts as touching.
-fn row(link: &Link, (block, k): (&Block, usize), along: Real, h: Real) -> (Real, bool) {
+fn row(
+    link: &Link,
+    (block, k): (&Block, usize),
+    (along, kick): (Real, Real),
+    h: Real,
+) -> (Real, bool) {
     if link.apart_now {
         return (0.0, false);
     }
     let gap = block.gap[k];
     let bend = link.curvature[k] * h;
     let loaded = block.impulse[k] > 0.0;
-    if gap <= 0.0 || (loaded && gap <= (bend * h).abs()) {
-        return (if loaded { -0.5 * bend } else { 0.0 }, true);
-    }
-    // What arrives by an impact is not braked before, and what passes by not at all.
+    // What arrives by an impact is not braked before, and what passes by the face not at all.
     let arrives = link.watched != Watched::No && along < -link.resting[k];
+    if gap <= 0.0 || (loaded && gap <= (bend * h).abs()) {
+        let (came, wanted) = ((kick - along).max(0.0), -0.5 * bend);
+        let persisting = if wanted > PERSISTS * came { came } else { wanted };
+        return (if loaded { persisting } else { 0.0 }, !(arrives && link.beside[k]));
+    }
     let opening = if loaded { 0.0 } else { 0.5 * bend.max(0.0) };
     (-gap / h - opening, !arrives && !link.passes[k])
 }

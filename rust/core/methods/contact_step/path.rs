@@ -27,17 +27,20 @@ pub struct Pair<'a> {
     pub angles: [Real; 2],
     /// The kick of the substep is over: the velocities stay.
     pub kicked: bool,
+    /// Length of the substep (s).
+    pub h: Real,
 }
 
 impl Pair<'_> {
-    /// Places at a time from the middle: x + vτ + ½aτ².
+    /// Places at a time from the middle: x + vτ + ½aτ² + ⅛ah². A body in flight has fallen by ⅛ah² more in half a
+    /// substep than the half drift with the velocity of its start moved it, and its path has to begin where it was.
     #[must_use]
     pub fn places_at(&self, time: Real) -> [Place; 2] {
         let at = |side: usize| {
             let mut place = *self.places[side];
             place.drift(&self.velocities[side].twist, time);
             if !self.kicked {
-                place.drift(&place.kick(0.5 * time), time);
+                place.drift(&place.kick(0.5), time * time + 0.25 * self.h * self.h);
             }
             place
         };
@@ -116,7 +119,8 @@ impl Pair<'_> {
             let (rate, bend) = self.rates(manifold, &at, k, (&places, &velocities));
             let gap = at.gap[k];
             if gap <= SAME * self.link.width && (step > 0 || gap <= 0.0) {
-                let arrives = -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link);
+                let arrives =
+                    -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link.width);
                 return arrives.then_some(Arrival { time, approach: -rate });
             }
             time += first_root(gap, rate, bend)?;
@@ -142,7 +146,7 @@ impl Pair<'_> {
         let pushed = along(&places[0].acceleration, &places[1].acceleration);
         let link = self.link;
         let bodies = [&places[0], &places[1]];
-        (rate, pushed + curvature(manifold, at, (link.apart, k), bodies, [va, vb]))
+        (rate, pushed + curvature(manifold, at, (link.apart, k), bodies, [va, vb])[0])
     }
 }
 
@@ -166,14 +170,14 @@ fn first_root(gap: Real, rate: Real, bend: Real) -> Option<Real> {
 }
 
 /// Whether a point that arrives at the plane of a face meets the face.
-fn on_face(manifold: &Manifold, at: &Moved, k: usize, link: &Link) -> bool {
+pub(super) fn on_face(manifold: &Manifold, at: &Moved, k: usize, width: Real) -> bool {
     let along = perp(at.normal);
     let (place, [low, high]) = match manifold.normal {
         Normal::OnA(_) => (along.dot(&at.arms[k][0]), manifold.face),
         Normal::OnB(_) => (along.dot(&at.arms[k][1]), manifold.face),
         Normal::Between | Normal::Inside => return true,
     };
-    let margin = 1e-9 * link.width;
+    let margin = 1e-9 * width;
     place >= low - margin && place <= high + margin
 }
 

@@ -22,7 +22,7 @@ pub(in crate::world) struct ContactScratch {
     links: Vec<[u32; 2]>,
     /// Patches of the links.
     solid: Vec<u32>,
-    group: Group,
+    pub(super) group: Group,
     /// Slot of each body in the group at work; valid where the mark is the group's.
     slots: Vec<(u32, u32)>,
     mark: u32,
@@ -38,6 +38,12 @@ impl ContactScratch {
     /// Whether the contact step moves a body in this span.
     pub fn moves(&self, body: usize) -> bool {
         self.moved.get(body).copied().unwrap_or(false)
+    }
+
+    /// Forgets the groups, where there is nothing to look for.
+    pub fn forget(&mut self) {
+        self.islands.clear();
+        self.moved.clear();
     }
 }
 
@@ -67,6 +73,9 @@ impl World {
 
     /// Moves every group through a span.
     pub(in crate::world) fn advance_contacts(&mut self, span: Span) -> Result<()> {
+        if self.scratch.contacts.islands.is_empty() {
+            return Ok(());
+        }
         self.state.contacts.scale_impulses(span.h());
         for k in 0..self.scratch.contacts.islands.len() {
             self.gather(k, span);
@@ -119,6 +128,8 @@ impl World {
                     width,
                     place,
                     curvature: [0.0; 2],
+                    turning: 0.0,
+                    tangent_speed: near.touch.tangent_speed,
                     passes: [false; 2],
                     resting: [0.0; 2],
                     watched: match (swift, near.touch.restitution > 0.0) {
@@ -129,6 +140,7 @@ impl World {
                     found: patch.manifold,
                     met: false,
                     apart_now: false,
+                    beside: [false; 2],
                     impact: 0.0,
                     approach: 0.0,
                 },

@@ -1,11 +1,17 @@
 //! Contacts of a world: the shapes in it, which of them are near one another, and what a contact remembers.
 
 mod advance;
+mod backup;
+#[cfg(test)]
+mod coulomb;
 mod detect;
 mod near;
+mod strays;
 
 pub(super) use advance::ContactScratch;
+pub(super) use backup::ContactBackup;
 pub(super) use near::{Near, Patch};
+pub(super) use strays::Strays;
 
 use serde::{Deserialize, Serialize};
 
@@ -108,8 +114,14 @@ impl Contacts {
 
     /// Tells that the place of a body was set.
     pub fn touch(&mut self, body: usize) {
-        if self.has_shapes(body) {
-            self.moved.push(body as u32);
+        if !self.has_shapes(body) {
+            return;
+        }
+        self.moved.push(body as u32);
+        // Worlds that are set and never stepped must not gather names without end.
+        if self.moved.len() > 2 * self.of_body.len() {
+            self.moved.sort_unstable();
+            self.moved.dedup();
         }
     }
 
@@ -123,10 +135,15 @@ impl Contacts {
 
     /// Derives what is not stored.
     pub fn rebuild(&mut self) {
-        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
+        self.map_pairs();
         self.frames.resize(self.of_body.len(), ORIGIN);
         self.covered.resize(self.of_body.len(), 0.0);
         self.touch_all();
+    }
+
+    /// Derives the map of pairs.
+    fn map_pairs(&mut self) {
+        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
     }
 
     fn insert(&mut self, bodies: &Bodies, body: usize) {

@@ -1,0 +1,117 @@
+//! Conservation: momentum, angular momentum, energy.
+
+use culbuto::World;
+use culbuto::body::BodyKind;
+use culbuto::math::{Real, cross};
+use proptest::prelude::*;
+
+use crate::common::{DT, Thrown, bin, fewer, laws, rush, weightless};
+
+/// Σm|v| and Σ(m|r||v| + I|ω|): what momenta are measured by.
+fn scales(world: &World) -> (Real, Real) {
+    let bodies = world.bodies();
+    let columns = bodies.poses.iter().zip(&bodies.twists).zip(&bodies.masses);
+    let of =
+        |((pose, v), m): ((&culbuto::math::Pose, &culbuto::math::Twist), &culbuto::body::Mass)| {
+            let p = m.mass * v.linear.norm();
+            (p, p * pose.position.norm() + m.inertia * v.angular.abs())
+        };
+    columns.map(of).fold((0.0, 0.0), |(a, b), (c, d)| (a + c, b + d))
+}
+
+/// Steps a world, and looks at its energy after each step: the balance stays to `part` of the energy there
+/// ever was, and what contact has taken never shrinks.
+fn energy_is_accounted_for(world: &mut World, steps: u32, part: Real) -> Result<(), TestCaseError> {
+    let start = world.energy().unwrap();
+    let scale = start.kinetic + falls(world);
+    let mut taken = start.dissipated;
+    for step in 0..steps {
+        world.step(DT).unwrap();
+        let now = world.energy().unwrap();
+        let off = (now.balance() - start.balance()).abs();
+        prop_assert!(
+            off <= part * scale,
+            "step {}: the balance is off by {:e} of {:e}",
+            step,
+            off,
+            scale
+        );
+        prop_assert!(
+            now.dissipated >= taken - 1e-13 * scale,
+            "step {}: contact gives {:e} of {:e}",
+            step,
+            taken - now.dissipated,
+            scale
+        );
+        let added = now.total() - start.total() - now.work - now.correction_work;
+        prop_assert!(added <= part * scale, "step {}: {:e} from nowhere", step, added);
+        taken = now.dissipated;
+    }
+    Ok(())
+}
+
+/// Energy that bodies can fall by (J): Σ mg|y|.
+fn falls(world: &World) -> Real {
+    let bodies = world.bodies();
+    let of = |i: usize| {
+        let free = bodies.infos[i].def.kind == BodyKind::Dynamic;
+        let g = world.settings().gravity.norm();
+        if free { bodies.masses[i].mass * g * bodies.poses[i].position.norm() } else { 0.0 }
+    };
+    (0..bodies.len()).map(of).sum()
+}
+
+proptest! {
+    #![proptest_config(fewer(2))]
+
+    /// Of Σm|v| at the start.
+    #[test]
+    fn no_collision_changes_momentum(bodies in rush(5), law in laws()) {
+        let mut world = weightless(&bodies, law);
+        let (start, scale) = (world.momentum(), scales(&world).0);
+        world.steps(DT, 60).unwrap();
+        let change = (world.momentum() - start).norm();
+        prop_assert!(change <= 1e-12 * scale, "{:e} of {:e}", change, scale);
+    }
+
+    /// Of Σ(m|r||v| + I|ω|) at the start.
+    #[test]
+    fn no_collision_changes_angular_momentum(bodies in rush(5), law in laws()) {
+        let mut world = weightless(&bodies, law);
+        let center = world.center_of_mass();
+        let drift = world.momentum() / world.mass();
+        let (start, scale) = (world.angular_momentum(center), scales(&world).1);
+        world.steps(DT, 60).unwrap();
+        let change = (world.angular_momentum(center) - start).abs();
+        prop_assert!(change <= 1e-10 * scale, "{:e} of {:e}", change, scale);
+        let _ = cross(center, drift);
+    }
+
+    #[test]
+    fn collisions_without_gravity_only_take_energy_and_book_it(bodies in rush(5), law in laws()) {
+        energy_is_accounted_for(&mut weightless(&bodies, law), 60, 1e-10)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(fewer(8))]
+
+    #[test]
+    fn piles_that_fall_only_take_energy_and_book_it(bodies in rush(8), law in laws()) {
+        let mut world = bin(&bodies);
+        world.set_impact_law(law);
+        energy_is_accounted_for(&mut world, 120, 1e-10)?;
+    }
+
+    /// Restitution 1 and no friction: all energy stays, whatever the shapes.
+    #[test]
+    fn elastic_frictionless_collisions_keep_energy(bodies in rush(5), law in laws()) {
+        let smooth = |body: &Thrown| Thrown { friction: 0.0, restitution: 1.0, ..body.clone() };
+        let bodies: Vec<Thrown> = bodies.iter().map(smooth).collect();
+        let mut world = weightless(&bodies, law);
+        let start = world.energy().unwrap().kinetic;
+        world.steps(DT, 60).unwrap();
+        let kept = world.energy().unwrap().kinetic / start;
+        prop_assert!((kept - 1.0).abs() <= 1e-9, "{} of the energy stays", kept);
+    }
+}

@@ -1,0 +1,12 @@
+//! Claims about bodies that touch.
+
+#![allow(clippy::unwrap_used)] // helpers of tests may, as tests do
+
+mod common;
+mod invariance;
+mod laws;
+mod rest;
+mod rollback;
+mod surfaces;
+#[path = "../common/worlds.rs"]
+mod worlds;
