@@ -19,7 +19,14 @@ fn main() -> Result<ExitCode> {
     } else {
         names.iter().map(|name| scene(name)).collect::<Result<_>>()?
     };
-    println!("# Full runs\n\nWritten by `make test-full` on {}, {}.", today(), machine());
+    println!(
+        "# Full runs\n\nBy the example `full-runs` (`make test-full`) on {}, {}.",
+        today(),
+        machine()
+    );
+    if within.is_finite() {
+        println!("Cut short: no scene was begun after {within} s.");
+    }
     let start = Instant::now();
     let mut pass = true;
     for scene in chosen {
