@@ -19,7 +19,14 @@ fn main() -> Result<ExitCode> {
     } else {
         names.iter().map(|name| scene(name)).collect::<Result<_>>()?
     };
-    println!("# Full runs\n\nWritten by `make test-full` on {}, {}.", today(), machine());
+    println!(
+        "# Full runs\n\nBy the example `full-runs` (`make test-full`) on {}, {}.",
+        today(),
+        machine()
+    );
+    if within.is_finite() {
+        println!("Cut short: no scene was begun after {within} s.");
+    }
     let start = Instant::now();
     let mut pass = true;
     for scene in chosen {
@@ -59,7 +66,9 @@ fn today() -> String {
     let seconds = SystemTime::UNIX_EPOCH.elapsed().map_or(0, |since| since.as_secs());
     let mut days = seconds / 86_400;
     let mut year = 1970;
-    let leap = |year: u64| year % 4 == 0 && (year % 100 != 0 || year % 400 == 0);
+    let leap = |year: u64| {
+        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
+    };
     while days >= 365 + u64::from(leap(year)) {
         days -= 365 + u64::from(leap(year));
         year += 1;

@@ -47,14 +47,14 @@ impl Pair<'_> {
         [at(0), at(1)]
     }
 
-    /// Velocities at a time from the middle: v + aτ.
+    /// Velocities at a time from the middle: v + aτ. After the kick they are known for its end; the path goes on as if they
+    /// stayed, but what an impact changes is counted from what the velocity then is, or energy would come of its place.
     #[must_use]
     pub fn velocities_at(&self, time: Real) -> [Velocity; 2] {
         let at = |side: usize| {
             let mut velocity = *self.velocities[side];
-            if !self.kicked {
-                velocity.twist += self.places[side].kick(time);
-            }
+            let since = if self.kicked { time - 0.5 * self.h } else { time };
+            velocity.twist += self.places[side].kick(since);
             velocity
         };
         [at(0), at(1)]

@@ -108,7 +108,7 @@ fn bin(seed: u32) -> Result<(World, Real)> {
         (2.0, HEIGHT, HALF_WIDTH + 1.0, HEIGHT / 2.0),
         (2.0, HEIGHT, -HALF_WIDTH - 1.0, HEIGHT / 2.0),
     ] {
-        let belt = y < 0.0 && seed % 3 == 0;
+        let belt = y < 0.0 && seed.is_multiple_of(3);
         let tangent_speed = if belt { dice.between(-2.0, 2.0) } else { 0.0 };
         world.add_body(BodyDef {
             kind: BodyKind::Static,
