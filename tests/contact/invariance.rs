@@ -6,7 +6,7 @@ use culbuto::shapes::Shape;
 use culbuto::{BodyDef, World};
 use proptest::prelude::*;
 
-use crate::common::{DT, Thrown, fewer, fixed, laws, rush, surface, weightless};
+use crate::common::{DT, Form, Thrown, fewer, fixed, laws, rush, surface, weightless};
 
 /// How a scene is put down: turned, then mirrored, scaled and moved.
 #[derive(Clone, Copy, Debug)]
@@ -87,7 +87,21 @@ impl Change {
     }
 }
 
-/// Steps in which two or three bodies meet each other, and mostly the floor, a few times. A difference grows
+/// Convex bodies that bounce: their motion depends on no choice of pieces, and on no order in which overlaps are
+/// removed.
+fn neat(bodies: &[Thrown]) -> Vec<Thrown> {
+    let neat = |body: &Thrown| {
+        let form = match body.form {
+            Form::Ell(a, t) => Form::Box(a, t),
+            Form::Dumbbell(l, r) => Form::Capsule(l, r),
+            ref form => form.clone(),
+        };
+        Thrown { form, restitution: body.restitution.max(0.3), ..body.clone() }
+    };
+    bodies.iter().map(neat).collect()
+}
+
+/// Steps in which two bodies meet each other, and mostly the floor, a few times. A difference grows
 /// by a factor of perhaps ten an impact, from 1e-15: it stays below 1e-8 for the six or so that come.
 const SHORT: u32 = 40;
 
@@ -95,21 +109,21 @@ proptest! {
     #![proptest_config(fewer(4))]
 
     #[test]
-    fn a_mirrored_scene_moves_as_the_mirror_image(bodies in rush(3), law in laws()) {
-        let apart = Change { side: -1.0, ..NONE }.apart(&bodies, law, SHORT);
+    fn a_mirrored_scene_moves_as_the_mirror_image(bodies in rush(2), law in laws()) {
+        let apart = Change { side: -1.0, ..NONE }.apart(&neat(&bodies), law, SHORT);
         prop_assert!(apart <= 1e-7, "{:e}", apart);
     }
 
     #[test]
-    fn a_turned_scene_moves_as_the_scene_turned(bodies in rush(3), law in laws(), turn in -3.0..3.0_f64) {
-        let apart = Change { turn, ..NONE }.apart(&bodies, law, SHORT);
+    fn a_turned_scene_moves_as_the_scene_turned(bodies in rush(2), law in laws(), turn in -3.0..3.0_f64) {
+        let apart = Change { turn, ..NONE }.apart(&neat(&bodies), law, SHORT);
         prop_assert!(apart <= 1e-7, "{:e}", apart);
     }
 
     /// 1 km away positions have 1e-13 m.
     #[test]
-    fn a_scene_elsewhere_moves_as_the_scene_moved(bodies in rush(3), law in laws(), x in -1e3..1e3_f64, y in -1e3..1e3_f64) {
-        let apart = Change { offset: vec2(x, y), ..NONE }.apart(&bodies, law, SHORT);
+    fn a_scene_elsewhere_moves_as_the_scene_moved(bodies in rush(2), law in laws(), x in -1e3..1e3_f64, y in -1e3..1e3_f64) {
+        let apart = Change { offset: vec2(x, y), ..NONE }.apart(&neat(&bodies), law, SHORT);
         prop_assert!(apart <= 1e-5, "{:e}", apart);
     }
 
@@ -123,6 +137,7 @@ proptest! {
 
     #[test]
     fn a_single_collision_does_not_depend_on_the_order_of_creation(bodies in rush(2), law in laws()) {
+        let bodies = neat(&bodies);
         let back: Vec<Thrown> = bodies.iter().rev().cloned().collect();
         let (mut one, mut other) = (weightless(&bodies, law), weightless(&back, law));
         one.steps(DT, SHORT).unwrap();

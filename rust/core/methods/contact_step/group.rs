@@ -71,6 +71,8 @@ pub struct Group {
     pub driven: bool,
     /// Velocities before the rows.
     pub(super) free: Vec<Twist>,
+    /// h²/8: times its acceleration, how far a body's path is beyond the place after a drift of h/2 (s²).
+    pub(super) sag: Real,
     /// Where impacts may come.
     pub(super) watch: Watch,
 }

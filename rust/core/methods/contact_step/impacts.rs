@@ -94,6 +94,7 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
     if watch.first.is_empty() {
         watch.index(group.velocities.len(), &group.blocks);
     }
+    group.sag = h * h / 8.0;
     watch.seen.clear();
     watch.seen.resize(group.velocities.len(), 0);
     let mut queue = BinaryHeap::new();
@@ -162,6 +163,7 @@ fn pair(group: &Group, k: usize) -> Pair<'_> {
         link: &group.links[k],
         places: [&group.places[a], &group.places[b]],
         velocities: [&group.velocities[a], &group.velocities[b]],
+        sag: group.sag,
     }
 }
 

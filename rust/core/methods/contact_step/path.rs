@@ -23,16 +23,20 @@ pub struct Pair<'a> {
     pub places: [&'a Place; 2],
     /// Velocities in the middle.
     pub velocities: [&'a Velocity; 2],
+    /// h²/8 of the substep (s²).
+    pub sag: Real,
 }
 
 impl Pair<'_> {
-    /// Places at a time from the middle: x + vτ + ½aτ².
+    /// Places at a time from the middle: x + ah²/8 + vτ + ½aτ². The drift of h/2 with the velocity of the start
+    /// has left x short of the middle of the parabola by ah²/8.
     #[must_use]
     pub fn places_at(&self, time: Real) -> [Place; 2] {
         let at = |side: usize| {
             let mut place = *self.places[side];
             place.drift(&self.velocities[side].twist, time);
             place.drift(&place.kick(0.5 * time), time);
+            place.drift(&place.kick(self.sag), 1.0);
             place
         };
         [at(0), at(1)]
