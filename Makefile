@@ -7,7 +7,7 @@
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help report test check bench count docs package test-deep clean
+.PHONY: help report test check bench count peers peers-check docs package test-deep test-full clean
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
@@ -46,6 +46,28 @@ count: ## Count instructions a step (needs valgrind)
 	cargo build --release --example instructions --locked
 	$(PYTHON) benches/count.py $(CARGO_TARGET_DIR)/release/examples/instructions
 
+# A package of its own, built apart; its own .cargo/config.toml says how Box2D is compiled.
+PEERS := $(CURDIR)/target/peers
+PEERS_CARGO := cd benches/peers && CARGO_TARGET_DIR=$(PEERS)$(if $(NATIVE),/native RUSTFLAGS="-C target-cpu=native")
+PEERS_BUILD := --release --locked $(if $(NATIVE),--features avx2)
+ROUNDS ?= 5
+
+peers: $(PEERS)/venv/installed ## Race other engines: SCENES="tumbler washer" ENGINES=culbuto,box2d ROUNDS=5 STEPS=100 NATIVE=1 PAGE=docs/peers.md
+	$(PEERS_CARGO) cargo run $(PEERS_BUILD) -- $(SCENES) --rounds $(ROUNDS) $(if $(STEPS),--steps $(STEPS)) \
+		$(if $(ENGINES),--engines $(ENGINES)) --python $(PEERS)/venv/bin/python \
+		--json $(PEERS)/race.json $(if $(PAGE),--page $(abspath $(PAGE)))
+
+peers-check: $(PEERS)/venv/installed ## Formatting, lints and tests of benches/peers
+	$(PEERS_CARGO) cargo fmt --check
+	$(PEERS_CARGO) cargo clippy --no-deps --all-targets $(PEERS_BUILD) -- -D warnings
+	$(PEERS_CARGO) PEERS_PYTHON=$(PEERS)/venv/bin/python cargo test $(PEERS_BUILD)
+
+$(PEERS)/venv/installed:
+	rm -rf $(@D) && mkdir -p $(PEERS)
+	$(PYTHON) -m venv $(@D)
+	$(@D)/bin/python -m pip --disable-pip-version-check install --quiet "pymunk==7.3.*"
+	touch $@
+
 docs: ## Documentation of the crate, in target/doc
 	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked
 
@@ -62,6 +84,10 @@ package: .venv/tools ## Source distribution, a wheel from it, and that wheel in 
 test-deep: .venv/tools ## The property tests with many more cases (tens of minutes)
 	PROPTEST_CASES=10000 cargo test --release --workspace --locked
 	CULBUTO_PROFILE=deep $(BIN)/pytest --numprocesses auto
+
+test-full: ## The scenes that take minutes, and docs/full-runs.md from them (half an hour)
+	cargo build --release --example full-runs --locked
+	$(CARGO_TARGET_DIR)/release/examples/full-runs > docs/full-runs.md
 
 clean: ## Remove everything that was made
 	rm -rf .venv target report dist

@@ -36,14 +36,18 @@ __all__ = [
     "Central",
     "Chain",
     "Circle",
+    "Distance",
     "Energy",
     "Facts",
     "Field",
     "Frame",
     "MassProperties",
+    "Nearest",
     "Oscillating",
     "PairOfMaterials",
     "Polygon",
+    "RayHit",
+    "RayHits",
     "RegularPolygon",
     "RoundedPolygon",
     "SceneFile",
@@ -120,6 +124,21 @@ class _Own(TypedDict, total=False):
     """It only notices what overlaps it."""
     one_way: _Vec2Arg | None
     """It stops only what comes from the side that this points to, in the body's frame."""
+
+@type_check_only
+class _Seen(TypedDict, total=False):
+    """Which shapes a query sees; all but sensors, if nothing is given."""
+
+    mask: int | None
+    """Bits of the categories that are seen."""
+    category: int | None
+    """Bits of its own categories: it sees only shapes that have one of them in their masks."""
+    group: int | None
+    """Shapes of this group are all seen if it is above 0, and none if it is below."""
+    sensors: bool | None
+    """Whether sensors are seen."""
+    exclude: Body | Iterable[Body] | None
+    """Bodies that are not seen."""
 
 class SceneFileError(ValueError): ...
 class SimulationError(RuntimeError): ...
@@ -239,6 +258,18 @@ class Shape:
         """Extent along a direction (m)."""
     def mass_properties(self, density: float) -> MassProperties:
         """Mass, centre and inertia for a density in kg/m², or in kg/m for wires."""
+    def distance_to(
+        self, other: Shape, *, position: _Vec2Arg = ..., angle: float = 0.0
+    ) -> Distance:
+        """How far a shape is that is placed in the frame of this one, and where they are nearest.
+
+        Below 0 where they overlap, as `Body.distance_to` has it.
+
+        Args:
+            other: The other shape.
+            position: Where its frame stands in that of this shape (m).
+            angle: By which it is turned (rad).
+        """
     def outline(self, max_angle: float = 0.1) -> list[_Array]:
         """Polylines to draw, each (n, 2) (m): outline and holes, closed, or the wire.
 
@@ -726,6 +757,12 @@ class Body:
     """
 
     @property
+    def contacts(self) -> Contacts:
+        """Where the body touched others after the last step."""
+    @property
+    def overlaps(self) -> list[Body]:
+        """Bodies in its sensors, and whose sensors it is in, after the last step."""
+    @property
     def position(self) -> Vec2:
         """Position of the body's frame (m)."""
     @position.setter
@@ -921,9 +958,110 @@ class Body:
         """Changes the velocities at once by an impulse (N·s), at the centre or at a world point."""
     def apply_angular_impulse(self, impulse: float) -> None:
         """Changes the angular velocity at once by an angular impulse (N·m·s)."""
+    def distance_to(self, other: Body) -> Distance:
+        """How far another body is, and where the two are nearest.
+
+        Below 0 where they overlap: minus the most that a convex piece of one has to move to be
+        clear of a piece of the other. A body without shapes is a point.
+        """
     def remove(self) -> None:
         """Removes the body, and the schedules on it, from its world."""
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
+
+@final
+class RayHit:
+    """Where a ray or a moving shape hits a shape."""
+
+    __match_args__: Final = ("body", "part", "point", "normal", "fraction")
+    def __new__(
+        cls, body: Body, part: int, point: _Vec2Arg, normal: _Vec2Arg, fraction: float
+    ) -> RayHit: ...
+    @property
+    def body(self) -> Body:
+        """The body that is hit."""
+    @property
+    def part(self) -> int:
+        """Which of its shapes, counted from 0."""
+    @property
+    def point(self) -> Vec2:
+        """Point of that shape (m)."""
+    @property
+    def normal(self) -> Vec2:
+        """Its outward unit normal there; of wires, on the side that is hit."""
+    @property
+    def fraction(self) -> float:
+        """Part of the way up to the hit, 0 to 1."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[RayHit], tuple[Any, ...]]: ...
+
+@final
+class Nearest:
+    """The shape that is nearest to a point."""
+
+    __match_args__: Final = ("body", "part", "point", "distance")
+    def __new__(cls, body: Body, part: int, point: _Vec2Arg, distance: float) -> Nearest: ...
+    @property
+    def body(self) -> Body:
+        """The body."""
+    @property
+    def part(self) -> int:
+        """Which of its shapes, counted from 0."""
+    @property
+    def point(self) -> Vec2:
+        """Its nearest point (m): the one that was asked for, if the shape holds it."""
+    @property
+    def distance(self) -> float:
+        """How far that is (m), 0 if the shape holds the point."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Nearest], tuple[Any, ...]]: ...
+
+@final
+class Distance:
+    """How far two things are apart."""
+
+    __match_args__: Final = ("distance", "on_self", "on_other", "normal")
+    def __new__(
+        cls, distance: float, on_self: _Vec2Arg, on_other: _Vec2Arg, normal: _Vec2Arg
+    ) -> Distance: ...
+    @property
+    def distance(self) -> float:
+        """Distance (m), below 0 where they overlap."""
+    @property
+    def on_self(self) -> Vec2:
+        """Nearest point of the one that was asked (m)."""
+    @property
+    def on_other(self) -> Vec2:
+        """Nearest point of the other (m)."""
+    @property
+    def normal(self) -> Vec2:
+        """Unit vector from the one to the other."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Distance], tuple[Any, ...]]: ...
+
+@final
+class RayHits:
+    """What many rays hit, as arrays with a row for each ray."""
+
+    def __new__(
+        cls, bodies: NDArray[np.int64], fractions: _Array, points: _Array, normals: _Array
+    ) -> RayHits: ...
+    @property
+    def bodies(self) -> NDArray[np.int64]:
+        """Places in body order (n,) of the bodies that are hit, −1 where nothing is."""
+    @property
+    def fractions(self) -> _Array:
+        """Parts of the ways up to the hits (n,), 1 where nothing is hit."""
+    @property
+    def points(self) -> _Array:
+        """Points that are hit (n, 2) (m), or the ends of the rays."""
+    @property
+    def normals(self) -> _Array:
+        """Outward unit normals (n, 2), or zeros."""
+    def __len__(self) -> int: ...
+    def __reduce__(self) -> tuple[type[RayHits], tuple[Any, ...]]: ...
 
 @final
 class Field:
@@ -982,6 +1120,227 @@ class Schedule:
     def remove(self) -> None:
         """Removes the schedule from its world."""
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
+
+@final
+class Contact:
+    """Where two bodies touch: one or two points with one normal."""
+
+    @property
+    def body_a(self) -> Body:
+        """The body of the two that was added first."""
+    @property
+    def body_b(self) -> Body:
+        """The other body."""
+    @property
+    def part_a(self) -> int:
+        """Which shape of A, counted from 0."""
+    @property
+    def part_b(self) -> int:
+        """Which shape of B, counted from 0."""
+    @property
+    def normal(self) -> Vec2:
+        """Unit vector from A to B."""
+    @property
+    def points(self) -> list[Vec2]:
+        """One or two points (m)."""
+    @property
+    def gaps(self) -> list[float]:
+        """Gap at each point (m), below 0 where the surfaces overlap."""
+    @property
+    def normal_impulses(self) -> list[float]:
+        """Impulse on B along the normal at each point, in the last substep (N·s)."""
+    @property
+    def tangential_impulse(self) -> float:
+        """Impulse on B along the normal turned counter-clockwise (N·s)."""
+    @property
+    def force(self) -> Vec2:
+        """Mean force on B over the last substep (N); that on A is its opposite."""
+    @property
+    def sliding(self) -> bool:
+        """Whether the surfaces slid."""
+
+@final
+class Contacts:
+    """Contacts at one moment, as arrays and one by one."""
+
+    @property
+    def bodies(self) -> _IntArray:
+        """Places of A and B in body order (n, 2)."""
+    @property
+    def parts(self) -> _IntArray:
+        """Which shape of each (n, 2), counted from 0."""
+    @property
+    def count(self) -> _IntArray:
+        """Number of points of each (n,), 1 or 2."""
+    @property
+    def points(self) -> _Array:
+        """Points (n, 2, 2) (m); NaN where there is no second."""
+    @property
+    def normals(self) -> _Array:
+        """Unit vectors from A to B (n, 2)."""
+    @property
+    def gaps(self) -> _Array:
+        """Gaps (n, 2) (m), below 0 in overlap; NaN where there is no second point."""
+    @property
+    def normal_impulses(self) -> _Array:
+        """Impulses on B along the normal (n, 2), in the last substep (N·s)."""
+    @property
+    def tangential_impulses(self) -> _Array:
+        """Impulses on B along the normal turned counter-clockwise (n,) (N·s)."""
+    @property
+    def forces(self) -> _Array:
+        """Mean forces on B over the last substep (n, 2) (N)."""
+    @property
+    def sliding(self) -> NDArray[np.bool_]:
+        """Whether the surfaces slid (n,)."""
+    @property
+    def items(self) -> list[Contact]:
+        """One by one."""
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> Contact: ...
+    def __iter__(self) -> Iterator[Contact]: ...
+
+@final
+class ContactEvent:
+    """Something that happened between two shapes.
+
+    The body that was added first is A; of a sensor and what it notices, the sensor. A body that was
+    removed since says so (`removed`).
+    """
+
+    @property
+    def kind(self) -> _EventKind:
+        """"begin", "end", "hit", "sensor_begin" or "sensor_end"."""
+    @property
+    def time(self) -> float:
+        """World time (s): of a hit its moment in the step, of all else the step's end."""
+    @property
+    def body_a(self) -> Body | None:
+        """A; None if it was removed before and no object is left of it."""
+    @property
+    def body_b(self) -> Body | None:
+        """B; None if it was removed before and no object is left of it."""
+    @property
+    def part_a(self) -> int:
+        """Which shape of A, counted from 0."""
+    @property
+    def part_b(self) -> int:
+        """Which shape of B, counted from 0."""
+    @property
+    def point(self) -> Vec2 | None:
+        """Where they touch (m); None at ends and for sensors."""
+    @property
+    def normal(self) -> Vec2 | None:
+        """Unit vector from A to B; None at ends and for sensors."""
+    @property
+    def approach_speed(self) -> float:
+        """How fast they came together (m/s), of hits."""
+    @property
+    def impulse(self) -> float:
+        """Along the normal (N·s): of a hit all, of a beginning the last substep's."""
+
+@final
+class ContactEvents:
+    """Events of one kind, as arrays and one by one."""
+
+    @property
+    def times(self) -> _Array:
+        """World times (n,) (s)."""
+    @property
+    def bodies(self) -> _IntArray:
+        """Places of A and B in body order (n, 2); -1 for a body that was removed."""
+    @property
+    def parts(self) -> _IntArray:
+        """Which shape of each (n, 2), counted from 0."""
+    @property
+    def points(self) -> _Array:
+        """Points (n, 2) (m); NaN where there is none."""
+    @property
+    def normals(self) -> _Array:
+        """Unit vectors from A to B (n, 2); NaN where there is none."""
+    @property
+    def approach_speeds(self) -> _Array:
+        """How fast they came together (n,) (m/s), of hits."""
+    @property
+    def impulses(self) -> _Array:
+        """Impulses along the normal (n,) (N·s)."""
+    @property
+    def items(self) -> list[ContactEvent]:
+        """One by one."""
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int, /) -> ContactEvent: ...
+    def __iter__(self) -> Iterator[ContactEvent]: ...
+
+@final
+class Events:
+    """What happened during a call that moved the world on."""
+
+    @property
+    def begin(self) -> ContactEvents:
+        """Shapes that began to touch."""
+    @property
+    def end(self) -> ContactEvents:
+        """Shapes that no longer touch."""
+    @property
+    def hit(self) -> ContactEvents:
+        """Impacts, and new contacts that came faster than a substep's forces make them."""
+    @property
+    def sensor_begin(self) -> ContactEvents:
+        """Shapes that a sensor began to overlap."""
+    @property
+    def sensor_end(self) -> ContactEvents:
+        """Shapes that a sensor no longer overlaps."""
+
+@final
+class PreSolve:
+    """A contact that is about to be solved. What is set holds for this step."""
+
+    @property
+    def body_a(self) -> Body:
+        """One body."""
+    @property
+    def body_b(self) -> Body:
+        """The other body."""
+    @property
+    def part_a(self) -> int:
+        """Which shape of A, counted from 0."""
+    @property
+    def part_b(self) -> int:
+        """Which shape of B, counted from 0."""
+    @property
+    def normal(self) -> Vec2:
+        """Unit vector from A to B."""
+    @property
+    def points(self) -> list[Vec2]:
+        """One or two points (m)."""
+    @property
+    def gaps(self) -> list[float]:
+        """Gap at each point (m), below 0 where the surfaces overlap."""
+    @property
+    def friction(self) -> tuple[float, float]:
+        """Static and kinetic friction; may be set to one number for both as well."""
+    @friction.setter
+    def friction(self, value: float | tuple[float, float], /) -> None: ...
+    @property
+    def restitution(self) -> float:
+        """Speed after over speed before, 0 to 1."""
+    @restitution.setter
+    def restitution(self, value: float, /) -> None: ...
+    @property
+    def rolling_resistance(self) -> float:
+        """Arm (m) by which the normal force opposes rolling."""
+    @rolling_resistance.setter
+    def rolling_resistance(self, value: float, /) -> None: ...
+    @property
+    def tangent_speed(self) -> float:
+        """Velocity (m/s) of B along the surface of A at which nothing slides."""
+    @tangent_speed.setter
+    def tangent_speed(self, value: float, /) -> None: ...
+    @property
+    def enabled(self) -> bool:
+        """Whether the shapes resist one another."""
+    @enabled.setter
+    def enabled(self, value: bool, /) -> None: ...
 
 @final
 class Trajectory:
@@ -1053,7 +1412,7 @@ class StepReport:
         """Impacts resolved."""
     @property
     def residual(self) -> float:
-        """Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack."""
+        """Largest change of velocity in the last sweep of a substep (m/s): what rows still lack."""
     @property
     def smallest_step(self) -> float:
         """Smallest step (s); infinite where only closed forms were needed."""
@@ -1150,6 +1509,34 @@ class World:
         sleeping: bool = False,
         timing: bool = False,
     ) -> World: ...
+    @property
+    def contacts(self) -> Contacts:
+        """Where solid shapes touched after the last step."""
+    @property
+    def events(self) -> Events:
+        """What happened during the last call that moved the world on."""
+    def on_begin(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """Calls a function after the step in which two shapes begin to touch."""
+    def on_end(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """The same, when two shapes no longer touch."""
+    def on_hit(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """The same, for each hit."""
+    def on_sensor_begin(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """The same, when a sensor begins to overlap a shape."""
+    def on_sensor_end(self, callback: _Listener, body: Body | None = None) -> _Listener:
+        """The same, when a sensor no longer overlaps a shape."""
+    def off(self, callback: Callable[[ContactEvent], object]) -> None:
+        """No longer calls a function with events."""
+    @property
+    def collision_filter(self) -> _Filter | None:
+        """(body_a, part_a, body_b, part_b) -> whether two shapes can touch at all."""
+    @collision_filter.setter
+    def collision_filter(self, value: _Filter | None, /) -> None: ...
+    @property
+    def pre_solve(self) -> _Hook | None:
+        """Called with each contact before it is solved; False disables it for the step."""
+    @pre_solve.setter
+    def pre_solve(self, value: _Hook | None, /) -> None: ...
     @property
     def gravity(self) -> Vec2:
         """Gravity (m/s²)."""
@@ -1423,6 +1810,74 @@ class World:
         """Removes a body (and the schedules on it), a field or a schedule."""
     def find(self, name: str) -> Body | None:
         """The first body of this name, in body order; None if there is none."""
+    def cast_ray(self, start: _Vec2Arg, end: _Vec2Arg, **seen: Unpack[_Seen]) -> RayHit | None:
+        """The first shape on the straight way from `start` to `end`; None if it is free.
+
+        Shapes are solid: a ray that starts in one hits it at fraction 0. Wires are hit from both
+        sides.
+        """
+    def cast_ray_all(self, start: _Vec2Arg, end: _Vec2Arg, **seen: Unpack[_Seen]) -> list[RayHit]:
+        """All shapes on the straight way from `start` to `end`, in the order of the way.
+
+        Each comes once, where the ray first enters it.
+        """
+    def cast_rays(self, starts: ArrayLike, ends: ArrayLike, **seen: Unpack[_Seen]) -> RayHits:
+        """The first hits of many rays at once, from `starts` (n, 2) to `ends` (n, 2).
+
+        One point will do for all starts. A ray that hits nothing has the body −1, the fraction 1,
+        its own end as the point and the normal (0, 0). The interpreter is released meanwhile.
+        """
+    def cast_shape(
+        self,
+        shape: Shape,
+        translation: _Vec2Arg,
+        *,
+        position: _Vec2Arg = ...,
+        angle: float = 0.0,
+        **seen: Unpack[_Seen],
+    ) -> RayHit | None:
+        """The first shape that a shape hits on its way; None if the way is free.
+
+        It starts at `position` and `angle` and moves along `translation` (m) without turning. What
+        it overlaps at the start it hits at fraction 0.
+        """
+    def cast_shape_all(
+        self,
+        shape: Shape,
+        translation: _Vec2Arg,
+        *,
+        position: _Vec2Arg = ...,
+        angle: float = 0.0,
+        **seen: Unpack[_Seen],
+    ) -> list[RayHit]:
+        """All shapes that a shape would hit if nothing stopped it, in the order of the way."""
+    def bodies_at(self, point: _Vec2Arg, **seen: Unpack[_Seen]) -> list[Body]:
+        """The bodies that hold a point, in body order. Wires hold none."""
+    def bodies_in(
+        self,
+        lower: _Vec2Arg,
+        upper: _Vec2Arg,
+        *,
+        exact: bool = True,
+        **seen: Unpack[_Seen],
+    ) -> list[Body]:
+        """The bodies that share a point with the box between two corners, in body order.
+
+        With `exact=False` those with a shape whose own box along the axes does.
+        """
+    def overlapping(
+        self,
+        shape: Shape,
+        *,
+        position: _Vec2Arg = ...,
+        angle: float = 0.0,
+        **seen: Unpack[_Seen],
+    ) -> list[Body]:
+        """The bodies that share a point with a shape at a place, in body order."""
+    def nearest(
+        self, point: _Vec2Arg, max_distance: float = ..., **seen: Unpack[_Seen]
+    ) -> Nearest | None:
+        """The shape that is nearest to a point; None if none is within `max_distance` (m)."""
     def read(self, column: _Column, *, out: _Array | None = None) -> _Array:
         """Fills a contiguous array of floats of the right shape with a column, and returns it."""
     def step(self, dt: float, steps: int = 1, *, estimate: bool = False) -> None:

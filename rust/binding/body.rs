@@ -72,7 +72,10 @@ impl Body {
         let schedules = objects.keep_schedules(core.schedule_handles());
         drop(objects);
         drop(core);
-        drop((body, schedules));
+        if let Some(body) = body {
+            own.rules().keep_removed(body);
+        }
+        drop(schedules);
         Ok(())
     }
 }

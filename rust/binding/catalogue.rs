@@ -39,7 +39,7 @@ fn describe(scene: &&Scene) -> Value {
         Answer::Motion(motion) => json!({
             "duration": motion.duration,
             "dt": motion.dt,
-            "tolerance": motion.tolerance,
+            "tolerance": motion.toleranced.map(|asked| asked.tolerance),
             "length": motion.length,
         }),
         Answer::Numbers(_) => Value::Null,

@@ -32,7 +32,7 @@ pub fn to_py(error: Error) -> PyErr {
         Error::Invalid { .. } => PyValueError::new_err(message),
         Error::StaleHandle(_) => StaleHandleError::new_err(message),
         Error::SceneFile { .. } => SceneFileError::new_err(message),
-        Error::Field { source, .. } | Error::Interrupted { source } => {
+        Error::Field { source, .. } | Error::Hook { source } | Error::Interrupted { source } => {
             match source.downcast::<PyErr>() {
                 Ok(raised) => *raised,
                 Err(_) => SimulationError::new_err(message),

@@ -10,14 +10,18 @@ mod arrays;
 mod body;
 mod body_def;
 mod catalogue;
+mod contacts;
 mod convert;
 mod drawing;
 mod error;
 mod field;
+mod found;
+mod hooks;
 mod law;
 mod mixing;
 mod observe;
 mod parts;
+mod queries;
 mod record;
 mod scene_file;
 mod schedule;
@@ -43,15 +47,23 @@ mod culbuto_native {
         verify, verify_laws,
     };
     #[pymodule_export]
+    use crate::contacts::{Contact, ContactEvent, ContactEvents, Contacts, Events};
+    #[pymodule_export]
     use crate::error::{SceneFileError, SimulationError, StaleHandleError};
     #[pymodule_export]
     use crate::field::{Attraction, Central, Field, Oscillating};
+    #[pymodule_export]
+    use crate::found::{Distance, Nearest, RayHit};
+    #[pymodule_export]
+    use crate::hooks::PreSolve;
     #[pymodule_export]
     use crate::law::State;
     #[pymodule_export]
     use crate::mixing::PairOfMaterials;
     #[pymodule_export]
     use crate::observe::{Energy, Facts, methods};
+    #[pymodule_export]
+    use crate::queries::RayHits;
     #[pymodule_export]
     use crate::scene_file::{SceneFile, scene_schema};
     #[pymodule_export]

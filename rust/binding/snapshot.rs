@@ -253,6 +253,7 @@ impl World {
         let (copy, objects) = (core.clone(), own.objects().copied(py));
         drop(core);
         let world = Self::assembled(py, copy, &objects.laws(py))?;
+        Self::copy_rules(slf, &world)?;
         let made = world.get().objects().copied(py);
         copy_attributes(slf, &world)?;
         for (old, new) in objects.bodies.iter().zip(&made.bodies) {

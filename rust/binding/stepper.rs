@@ -82,6 +82,9 @@ impl Stepper {
         let world::Frame { ticks, fraction, dropped } =
             world.get().work(py, |core| stepper.frame(core, elapsed))?;
         *self.inner(py) = stepper;
+        if ticks > 0 {
+            world.get().deliver(py)?;
+        }
         Ok(Frame { ticks, fraction, dropped })
     }
 

@@ -177,21 +177,41 @@ fn signals() -> impl FnMut() -> Result<(), BoxError> {
     }
 }
 
+impl World {
+    /// Steps one by one, so that who listens may change the world in between. The events are those of all steps.
+    fn step_heard(&self, py: Python<'_>, dt: Real, steps: u32) -> PyResult<()> {
+        let mut earlier = world::Events::default();
+        for _ in 0..steps {
+            self.work(py, |core| core.step(dt))?;
+            let events = self.core(py)?.events().clone();
+            self.deliver(py)?;
+            earlier.append(events);
+            py.check_signals()?;
+        }
+        self.core(py)?.set_events(earlier);
+        Ok(())
+    }
+}
+
 #[pymethods]
 impl World {
     /// Moves the world on by `steps` steps of `dt` (s), at a fixed step. Forces applied for the next step act in
-    /// the first. With `estimate` the error is estimated from a run at half the substep (three times the
+    /// the first. Who listens to events is called after each step; what they raise ends the call, and the world stays
+    /// as after that step. With `estimate` the error is estimated from a run at half the substep (three times the
     /// cost); `report()` tells it. A call that fails leaves the world as it was before the first step.
     #[pyo3(signature = (dt, steps=1, *, estimate=false))]
     fn step(&self, py: Python<'_>, dt: Real, steps: i64, estimate: bool) -> PyResult<()> {
         let steps = count("steps", steps)?;
         if estimate {
-            return self.work(py, |core| core.steps_with_estimate(dt, steps).map(drop));
+            self.work(py, |core| core.steps_with_estimate(dt, steps).map(drop))?;
+        } else if steps == 1 {
+            self.work(py, |core| core.step(dt))?;
+        } else if self.is_heard() {
+            return self.step_heard(py, dt, steps);
+        } else {
+            self.work(py, |core| core.steps_watched(dt, steps, &mut signals()))?;
         }
-        if steps == 1 {
-            return self.work(py, |core| core.step(dt));
-        }
-        self.work(py, |core| core.steps_watched(dt, steps, &mut signals()))
+        self.deliver(py)
     }
 
     /// Moves the world on by a duration (s), to a relative tolerance (1e-15 to 0.1), at the steps that asks for.
@@ -213,6 +233,7 @@ impl World {
             let trajectory = core.advance_watched(duration, tolerance, &wanted, &mut signals())?;
             Ok((StepReport::from(core.report()), trajectory))
         })?;
+        self.deliver(py)?;
         if times.is_some() {
             let trajectory = Py::new(py, Trajectory::from_core(py, trajectory)?)?;
             report.trajectory = Some(Kept(Arc::new(trajectory)));
@@ -226,6 +247,7 @@ impl World {
         let (steps, every) = (count("steps", steps)?, count("every", every)?);
         let trajectory =
             self.work(py, |core| core.record_watched(dt, steps, every, &mut signals()))?;
+        self.deliver(py)?;
         Trajectory::from_core(py, trajectory)
     }
 

@@ -114,7 +114,7 @@ fn unexpected(key: &str) -> PyErr {
 }
 
 /// A keyword's value; an error of type names the keyword, as PyO3's do.
-fn argument<'py, T>(key: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
+pub fn argument<'py, T>(key: &str, value: &Bound<'py, PyAny>) -> PyResult<T>
 where
     T: for<'a> FromPyObject<'a, 'py>,
 {

@@ -16,6 +16,7 @@ use crate::body::Body;
 use crate::convert::{Vec2Arg, count};
 use crate::error::to_py;
 use crate::field::Field;
+use crate::hooks::Rules;
 use crate::mixing::{ImpactLawArg, RuleArg};
 use crate::parts::Made;
 use crate::schedule::Schedule;
@@ -36,6 +37,8 @@ pub struct World {
     /// Never held while the thread is detached from the interpreter or makes a Python object, so that the
     /// garbage collector always finds it open.
     objects: Mutex<Objects>,
+    /// As the objects, and never together with them.
+    pub rules: Mutex<Rules>,
     /// Mark of the thread that steps, 0 for none.
     worker: AtomicUsize,
 }
@@ -64,6 +67,7 @@ impl World {
             made: Made::default(),
             core: Mutex::new(core),
             objects: Mutex::default(),
+            rules: Mutex::default(),
             worker: AtomicUsize::new(0),
         }
     }
@@ -104,10 +108,10 @@ impl World {
 
     /// An error if this thread is in the middle of a step of this world.
     #[inline]
-    fn not_within(&self) -> PyResult<()> {
+    pub fn not_within(&self) -> PyResult<()> {
         if self.worker.load(Ordering::Relaxed) == this_thread() {
             return Err(PyRuntimeError::new_err(
-                "this world is at work: a field cannot touch the world that calls it; \
+                "this world is at work: a field or a contact hook cannot touch the world that calls it; \
                  it is given all it may see as its argument",
             ));
         }
@@ -369,11 +373,14 @@ impl World {
         let Ok(objects) = self.objects.try_lock() else { return Ok(()) };
         objects.bodies.iter().try_for_each(|body| visit.call(body))?;
         objects.fields.iter().try_for_each(|field| visit.call(field))?;
-        objects.schedules.iter().try_for_each(|schedule| visit.call(schedule))
+        objects.schedules.iter().try_for_each(|schedule| visit.call(schedule))?;
+        let Ok(rules) = self.rules.try_lock() else { return Ok(()) };
+        rules.traverse(&visit)
     }
 
     fn __clear__(&self) {
+        let rules = std::mem::take(&mut *self.rules());
         let objects = std::mem::take(&mut *self.objects());
-        drop(objects); // with the lock open again: finalisers may ask for it
+        drop((objects, rules)); // with the lock open again: finalisers may ask for it
     }
 }

@@ -30,6 +30,13 @@ pub enum Error {
         #[source]
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+    /// A contact hook of the user's failed; nothing was stepped.
+    #[error("a contact hook failed: {source}")]
+    Hook {
+        /// What it reported.
+        #[source]
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
     /// Whoever watches a long run stopped it; nothing was stepped.
     #[error("interrupted: {source}")]
     Interrupted {

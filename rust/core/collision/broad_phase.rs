@@ -201,16 +201,28 @@ impl BroadPhase {
     /// Moves a box (of half extents 0: a point) along a translation and calls `found` with those fat boxes that
     /// it meets, and with the fraction of the translation up to which is looked. It returns the fraction up to
     /// which to look from now on: that of a hit, or the one it was given; −1 ends the search. Nearer boxes tend
-    /// to come first.
+    /// to come first. Returns the fraction up to which was looked in the end.
     pub fn cast(
         &self,
         (origin, half_extents): (Vec2, Vec2),
         translation: Vec2,
         found: &mut dyn FnMut(ProxyId, Real) -> Real,
-    ) {
+    ) -> Real {
         let cast = BoxCast { origin, translation, half_extents };
         let mut see = |item, limit| found(ProxyId(item), limit);
-        let _ = self.trees.iter().fold(1.0, |limit, tree| tree.cast(&cast, limit, &mut see));
+        self.trees.iter().fold(1.0, |limit, tree| tree.cast(&cast, limit, &mut see))
+    }
+
+    /// Calls `found` with those fat boxes that are within `limit` (m) of a box, and with the distance up to which
+    /// is looked; it returns that from now on, as that of [`BroadPhase::cast`] does.
+    pub fn nearest(
+        &self,
+        aabb: &Aabb,
+        limit: Real,
+        found: &mut dyn FnMut(ProxyId, Real) -> Real,
+    ) -> Real {
+        let mut see = |item, limit| found(ProxyId(item), limit);
+        self.trees.iter().fold(limit, |limit, tree| tree.nearest(aabb, limit, &mut see))
     }
 
     /// How good the trees are.

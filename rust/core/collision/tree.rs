@@ -7,11 +7,11 @@
 //! grandchild change places where that makes a box smaller (tree rotations: Kensler 2008; Catto, "Dynamic
 //! bounding volume hierarchies", GDC 2019). So the tree depends on the order of the calls alone.
 
-mod cast;
+mod search;
 
 use serde::{Deserialize, Serialize};
 
-pub(super) use cast::BoxCast;
+pub(super) use search::BoxCast;
 
 use crate::math::Real;
 use crate::shapes::Aabb;

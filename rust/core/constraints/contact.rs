@@ -84,6 +84,18 @@ pub struct Moved {
     pub gap: [Real; 2],
 }
 
+impl Moved {
+    /// Point k half-way between the surfaces, from A's centre of mass (m).
+    #[must_use]
+    pub fn surface_point(&self, manifold: &Manifold, k: usize) -> Vec2 {
+        let half = 0.5 * self.gap[k];
+        match manifold.normal {
+            Normal::OnA(_) => self.arms[k][0] - self.normal * (manifold.radius_b + half),
+            _ => self.arms[k][0] + self.normal * (manifold.radius_a + half),
+        }
+    }
+}
+
 /// Where a manifold is when its bodies have moved; `apart` leads from A's centre of mass to B's at the start.
 #[must_use]
 pub fn moved(manifold: &Manifold, apart: Vec2, [a, b]: [&Place; 2]) -> Moved {
@@ -117,8 +129,8 @@ pub fn moved(manifold: &Manifold, apart: Vec2, [a, b]: [&Place; 2]) -> Moved {
     moved
 }
 
-/// Rate at which the normal velocity of point k changes while both bodies keep their twists: J̇v (m/s²).
-/// Where contacts run along a curve the midpoint rule J(v⁻ + v⁺) = 0 needs it.
+/// Rates at which the normal and the tangential velocity of point k change while both bodies keep their twists:
+/// J̇v (m/s²). Where contacts run along a curve, or pivot, the midpoint rule J(v⁻ + v⁺) = 0 needs them.
 #[must_use]
 pub fn curvature(
     manifold: &Manifold,
@@ -126,14 +138,14 @@ pub fn curvature(
     (apart, k): (Vec2, usize),
     [a, b]: [&Place; 2],
     [va, vb]: [&Twist; 2],
-) -> Real {
+) -> [Real; 2] {
     if va.angular == 0.0
         && vb.angular == 0.0
         && matches!(manifold.normal, Normal::OnA(_) | Normal::OnB(_))
     {
-        return 0.0;
+        return [0.0; 2];
     }
-    let n = moved.normal;
+    let (n, t) = (moved.normal, perp(moved.normal));
     let apart = apart + (b.way - a.way);
     let anchor = &manifold.anchors[k];
     let (on_a, on_b) = (a.rot.apply(anchor.on_a), b.rot.apply(anchor.on_b));
@@ -146,18 +158,20 @@ pub fn curvature(
         Normal::OnA(_) => {
             let arm = apart + on_b;
             let rate = vb.at(on_b) - va.linear;
-            n.dot(&(-on_b * (wb * wb) - perp(rate) * (2.0 * wa) - arm * (wa * wa)))
+            let along = -on_b * (wb * wb) - perp(rate) * (2.0 * wa) - arm * (wa * wa);
+            [n.dot(&along), t.dot(&along)]
         }
         Normal::OnB(_) => {
             let arm = on_a - apart;
             let rate = va.at(on_a) - vb.linear;
-            -n.dot(&(-on_a * (wa * wa) - perp(rate) * (2.0 * wb) - arm * (wb * wb)))
+            let along = -on_a * (wa * wa) - perp(rate) * (2.0 * wb) - arm * (wb * wb);
+            [-n.dot(&along), -t.dot(&along)]
         }
         Normal::Between | Normal::Inside => {
-            let along = rate.dot(&perp(n));
+            let along = rate.dot(&t);
             let length = between.dot(&n);
-            let turning = if length == 0.0 { 0.0 } else { along * along / length };
-            n.dot(&spin) + turning
+            let turning = if length == 0.0 { 0.0 } else { along / length };
+            [n.dot(&spin) + along * turning, t.dot(&spin) - rate.dot(&n) * turning]
         }
     }
 }

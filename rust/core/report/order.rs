@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::math::Real;
 use crate::methods::Facts;
-use crate::report::study::{Mode, error_of};
+use crate::report::study::{Mode, Mover, error_of};
 use crate::scenes::Motion;
 
 /// What was measured of a method's order on a scene.
@@ -32,20 +32,23 @@ fn rounding(steps: Real) -> Real {
 ///
 /// # Errors
 /// Those of the runs.
-pub fn measured_order(motion: &Motion, facts: &Facts) -> Result<Order> {
-    let part = order_over(&Motion { duration: motion.duration / 8.0, ..*motion }, facts)?;
-    if matches!(part, Order::Slope(_)) { Ok(part) } else { order_over(motion, facts) }
+pub fn measured_order(motion: &Motion, facts: &'static Facts) -> Result<Order> {
+    order_by(motion, Mover::Method(facts))
 }
 
-fn order_over(motion: &Motion, facts: &Facts) -> Result<Order> {
+/// The same of whatever moves the bodies.
+pub(super) fn order_by(motion: &Motion, mover: Mover) -> Result<Order> {
+    let part = order_over(&Motion { duration: motion.duration / 8.0, ..*motion }, mover)?;
+    if matches!(part, Order::Slope(_)) { Ok(part) } else { order_over(motion, mover) }
+}
+
+fn order_over(motion: &Motion, mover: Mover) -> Result<Order> {
     let mut ladder = Vec::new();
     for k in 4..=26 {
         let steps = libm::exp2(Real::from(k) / 2.0).round();
         let h = motion.duration / steps;
         let mut world = (motion.build)()?;
-        world.set_closed_form(false);
-        world.set_method(facts.name)?;
-        world.set_substeps(1)?;
+        mover.prepare(&mut world)?;
         // A step that the method refuses is too large, and no rung of the ladder.
         if let Ok((error, _)) = error_of(motion, &mut world, Mode::Step(h)) {
             ladder.push((steps, error));

@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::error::{Error, Result};
 use crate::math::Real;
 use crate::methods::{Facts, REGISTRY};
-use crate::scenes::{Answer, Motion, Scene};
+use crate::scenes::{Answer, Judged, Motion, Scene};
 use crate::world::{Trajectory, World};
 
 /// How a scene is run.
@@ -96,29 +96,72 @@ pub fn study(scene: &Scene, what: &Study) -> Result<Vec<Row>> {
         return Err(Error::invalid("scene", scene.name, "a scene whose answer is a motion"));
     };
     let mut rows = Vec::new();
-    if takes_closed_form(&motion)? {
+    if !is_contact(&motion) && takes_closed_form(&motion)? {
         let mut row = run(&motion, Mode::Step(motion.duration), what.repeats, &|_| Ok(()))?;
         (row.scene, row.method) = (scene.name, "closed_form");
         rows.push(row);
     }
-    for facts in chosen(&what.methods)? {
-        let with_method = |world: &mut World| {
-            world.set_closed_form(false);
-            world.set_method(facts.name)?;
-            world.set_substeps(1)
-        };
+    for mover in movers(&motion, &what.methods)? {
+        let prepare = |world: &mut World| mover.prepare(world);
         let steps = what.steps.iter().map(|n| Mode::Step(motion.duration / Real::from(*n)));
         let tolerances = what.tolerances.iter().map(|tolerance| Mode::Tolerance(*tolerance));
-        let tolerances = tolerances.filter(|_| facts.adaptive);
+        let tolerances = tolerances.filter(|_| mover.is_adaptive());
         for mode in steps.chain(tolerances) {
             // A step that a method refuses (it says why) has no row.
-            if let Ok(mut row) = run(&motion, mode, what.repeats, &with_method) {
-                (row.scene, row.method) = (scene.name, facts.name);
+            if let Ok(mut row) = run(&motion, mode, what.repeats, &prepare) {
+                (row.scene, row.method) = (scene.name, mover.name());
                 rows.push(row);
             }
         }
     }
     Ok(rows)
+}
+
+fn is_contact(motion: &Motion) -> bool {
+    matches!(motion.judged, Judged::Contact { .. })
+}
+
+/// What moves the bodies of a run.
+#[derive(Clone, Copy)]
+pub(super) enum Mover {
+    /// A method moves all, also what has a closed form.
+    Method(&'static Facts),
+    /// The contact step moves what touches, and closed forms the rest.
+    ContactStep,
+}
+
+impl Mover {
+    /// Sets up a world for it, one substep a step.
+    pub(super) fn prepare(self, world: &mut World) -> Result<()> {
+        if let Self::Method(facts) = self {
+            world.set_closed_form(false);
+            world.set_method(facts.name)?;
+        }
+        world.set_substeps(1)
+    }
+
+    /// Its name in rows.
+    pub(super) fn name(self) -> &'static str {
+        if let Self::Method(facts) = self { facts.name } else { "contact_step" }
+    }
+
+    /// The order it states.
+    pub(super) fn order(self) -> u32 {
+        if let Self::Method(facts) = self { facts.order } else { 2 }
+    }
+
+    fn is_adaptive(self) -> bool {
+        if let Self::Method(facts) = self { facts.adaptive } else { false }
+    }
+}
+
+/// What moves a scene's bodies in turn: the contact step where they touch, which the method does not change.
+fn movers(motion: &Motion, names: &[String]) -> Result<Vec<Mover>> {
+    let methods = chosen(names)?;
+    if is_contact(motion) {
+        return Ok(vec![Mover::ContactStep]);
+    }
+    Ok(methods.into_iter().map(Mover::Method).collect())
 }
 
 /// The methods of these names; all, where there is none.

@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use crate::error::Result;
 use crate::math::Real;
-use crate::methods::{Facts, REGISTRY};
-use crate::report::order::{Order, measured_order};
-use crate::report::study::{Mode, error_of};
-use crate::scenes::{Answer, Column, Motion, Scene};
+use crate::methods::REGISTRY;
+use crate::report::order::{Order, order_by};
+use crate::report::study::{Mode, Mover, error_of};
+use crate::scenes::{Answer, Column, Judged, Motion, Scene};
 
 /// A figure that was asked for, and what was measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -74,8 +74,16 @@ pub fn verify(scene: &Scene) -> Result<Verdict> {
     match scene.answer {
         Answer::Motion(motion) => {
             checks.extend(errors(&motion)?);
-            for method in REGISTRY.iter().filter(|_| motion.by_method) {
-                methods.push(method_row(&motion, method.facts())?);
+            match motion.judged {
+                Judged::AllMethods => {
+                    for method in REGISTRY {
+                        methods.push(method_row(&motion, Mover::Method(method.facts()))?);
+                    }
+                }
+                Judged::Contact { order: true } => {
+                    methods.push(method_row(&motion, Mover::ContactStep)?);
+                }
+                Judged::AsItComes | Judged::Contact { order: false } => {}
             }
         }
         Answer::Numbers(numbers) => {
@@ -92,37 +100,36 @@ pub fn verify(scene: &Scene) -> Result<Verdict> {
     Ok(Verdict { id: scene.id, name: scene.name, title: scene.title, checks, methods, pass })
 }
 
-/// The engine as it comes, at the fixed step and with the tolerance.
-fn errors(motion: &Motion) -> Result<[CheckRow; 2]> {
+/// The engine as it comes, at the fixed step and with the tolerance, if one is asked for.
+fn errors(motion: &Motion) -> Result<Vec<CheckRow>> {
     let (fixed, _) = error_of(motion, &mut (motion.build)()?, Mode::Step(motion.dt))?;
-    let tolerance = Mode::Tolerance(motion.tolerance);
-    let (toleranced, _) = error_of(motion, &mut (motion.build)()?, tolerance)?;
-    Ok([
-        row(format!("error, dt = {:.4} s", motion.dt), Column::Fixed, motion.fixed, fixed),
-        row(
-            format!("error, tolerance {:e}", motion.tolerance),
-            Column::Tolerance,
-            motion.toleranced,
-            toleranced,
-        ),
-    ])
+    let what = format!("error, dt = {:.4} s", motion.dt);
+    let mut rows = vec![row(what, Column::Fixed, motion.fixed, fixed)];
+    if let Some(asked) = motion.toleranced {
+        let mode = Mode::Tolerance(asked.tolerance);
+        let (error, _) = error_of(motion, &mut (motion.build)()?, mode)?;
+        let what = format!("error, tolerance {:e}", asked.tolerance);
+        rows.push(row(what, Column::Tolerance, asked.error, error));
+    }
+    Ok(rows)
 }
 
-fn method_row(motion: &Motion, facts: &'static Facts) -> Result<MethodRow> {
+fn method_row(motion: &Motion, mover: Mover) -> Result<MethodRow> {
     let mut world = (motion.build)()?;
-    world.set_closed_form(false);
-    world.set_method(facts.name)?;
+    let substeps = world.settings().substeps;
+    mover.prepare(&mut world)?;
+    world.set_substeps(substeps)?;
     // What a method refuses to step has no error; it says why to whoever asks for it.
     let measured = error_of(motion, &mut world, Mode::Step(motion.dt));
     let (error, energy) = measured.unwrap_or((Real::NAN, Real::NAN));
-    let order = measured_order(motion, facts)?;
+    let order = order_by(motion, mover)?;
     let slope = if let Order::Slope(slope) = order { Some(slope) } else { None };
-    let off = slope.map(|slope| (slope - Real::from(facts.order)).abs());
+    let off = slope.map(|slope| (slope - Real::from(mover.order())).abs());
     Ok(MethodRow {
-        method: facts.name,
+        method: mover.name(),
         error,
         energy,
-        order_stated: facts.order,
+        order_stated: mover.order(),
         order_measured: slope,
         exact: order == Order::Exact,
         pass: order == Order::Exact || off.is_some_and(|off| off <= 0.2),

@@ -1,6 +1,6 @@
 //! Air drag, and the width it acts on.
 
-use super::{Answer, Check, Column, Motion, Number, Scene, at};
+use super::{Answer, Check, Column, Judged, Motion, Number, Scene, Toleranced, at};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::Air;
@@ -46,9 +46,8 @@ pub static FALL: Scene = Scene {
         dt: 1.0 / 60.0,
         length: 21.3608811068,
         fixed: 1e-4,
-        toleranced: 1e-10,
-        tolerance: 1e-10,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-10, error: 1e-10 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[Check {
         what: "speeds at t = 1 and 3 against 7.18842565892 and 9.01469242065 m/s",
@@ -88,9 +87,8 @@ pub static COAST: Scene = Scene {
         dt: 1.0 / 60.0,
         length: 21.374_577_978_8,
         fixed: 1e-13,
-        toleranced: 1e-13,
-        tolerance: 1e-14,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-14, error: 1e-13 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[Check {
         what: "speed at t = 5 against 1.53846153846 m/s",
@@ -119,9 +117,8 @@ pub static COAST_IN_ONE_STEP: Scene = Scene {
         dt: LONG_STEP,
         length: 76.0,
         fixed: 1e-12,
-        toleranced: 1e-12,
-        tolerance: 1e-13,
-        by_method: false,
+        toleranced: Some(Toleranced { tolerance: 1e-13, error: 1e-12 }),
+        judged: Judged::AsItComes,
     }),
     checks: &[Check {
         what: "speed against v₀/10001, without overshoot",

@@ -2,12 +2,18 @@
 //! line and Python all use this one copy.
 
 mod drag;
+mod extremes;
 pub mod file;
+mod friction;
+mod gauge;
+mod impact;
 mod matter;
 mod newton;
 mod orbits;
 mod reversal;
 mod rotation;
+mod stacks;
+mod stage;
 
 pub use file::SceneFile;
 
@@ -56,12 +62,34 @@ pub struct Motion {
     pub length: Real,
     /// Largest error allowed at the fixed step.
     pub fixed: Real,
-    /// Largest error allowed with a tolerance.
-    pub toleranced: Real,
-    /// The tolerance it is run with.
+    /// What is asked with a tolerance; none where no run with contacts can be held to one yet.
+    pub toleranced: Option<Toleranced>,
+    /// What is judged on it.
+    pub judged: Judged,
+}
+
+/// What is asked of a run with a tolerance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Toleranced {
+    /// The tolerance.
     pub tolerance: Real,
-    /// Methods other than the default are judged on it too. Not where one step is the whole run.
-    pub by_method: bool,
+    /// Largest error allowed.
+    pub error: Real,
+}
+
+/// What is judged on a motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Judged {
+    /// The engine as it comes, and the order of every method.
+    AllMethods,
+    /// The engine as it comes alone: one step is the whole run.
+    AsItComes,
+    /// The engine as it comes: bodies that touch are moved by the contact step, whatever the method.
+    Contact {
+        /// Its order is measured. Not where the motion has kinks that fall inside a substep, or none but
+        /// free flight.
+        order: bool,
+    },
 }
 
 /// A number with its exact value.
@@ -116,6 +144,61 @@ pub static CATALOGUE: &[&Scene] = &[
     &rotation::VARYING_TORQUE,
     &matter::POLYGONS,
     &reversal::THREE_BODIES,
+    &impact::DROPS,
+    &impact::ELASTIC_BALL,
+    &impact::HEAD_ON,
+    &impact::SMOOTH_DISKS,
+    &impact::CRADLE,
+    &impact::OBLIQUE,
+    &impact::GALPERIN,
+    &impact::BILLIARD,
+    &impact::GAS,
+    &impact::BULLETS,
+    &friction::INCLINE,
+    &friction::SLIDING,
+    &friction::STOPPING,
+    &friction::BREAKAWAY,
+    &friction::ROLLING,
+    &friction::SLIDE_TO_ROLL,
+    &friction::TIPPING,
+    &friction::PUSHED_BOX,
+    &friction::FALLING_ROD,
+    &friction::PAINLEVE,
+    &friction::CONVEYOR,
+    &friction::BOWL,
+    &friction::DOMINOES,
+    &stacks::TEN,
+    &stacks::TWENTY,
+    &stacks::PYRAMID,
+    &extremes::GRAVITY,
+    &extremes::SIZES,
+    &extremes::SLIVERS,
+    &extremes::SPIN,
+    &extremes::OFFSET,
+    &extremes::CROWD,
+    &extremes::BAD_OUTLINES,
+    &extremes::STEPS,
+    &extremes::BAD_MATTER,
+    &extremes::GRAZING,
+    &extremes::REPEATS,
+    &extremes::RANDOM,
+];
+
+/// Scenes that take minutes; `make test-full` runs them.
+pub static LONG: &[&Scene] = &[
+    &stacks::LONG[0],
+    &stacks::LONG[1],
+    &stacks::LONG[2],
+    &extremes::ALL_RANDOM[0],
+    &extremes::ALL_RANDOM[1],
+    &extremes::ALL_RANDOM[2],
+    &extremes::ALL_RANDOM[3],
+    &extremes::ALL_RANDOM[4],
+    &extremes::ALL_RANDOM[5],
+    &extremes::ALL_RANDOM[6],
+    &extremes::ALL_RANDOM[7],
+    &extremes::ALL_RANDOM[8],
+    &extremes::ALL_RANDOM[9],
 ];
 
 /// The scene of this id or name, whatever the case.

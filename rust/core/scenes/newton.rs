@@ -1,6 +1,6 @@
 //! Newton's second law with forces that are constant, and constant between given times.
 
-use super::{Answer, Check, Column, Motion, Scene, at, weightless};
+use super::{Answer, Check, Column, Judged, Motion, Scene, Toleranced, at, weightless};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::ForceSchedule;
@@ -28,9 +28,8 @@ pub static PROJECTILE: Scene = Scene {
         dt: 1.0 / 60.0,
         length: 24.0,
         fixed: 1e-12,
-        toleranced: 1e-13,
-        tolerance: 1e-9,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-9, error: 1e-13 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[Check {
         what: "vertical velocity at t = 2 against −10.62 m/s",
@@ -79,9 +78,8 @@ pub static CONSTANT_FORCE: Scene = Scene {
         dt: 0.5,
         length: 20.0,
         fixed: 1e-12,
-        toleranced: 1e-13,
-        tolerance: 1e-9,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-9, error: 1e-13 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[Check {
         what: "largest error over steps from 1e-4 to 0.5 s",
@@ -131,9 +129,8 @@ pub static SCHEDULED_FORCE: Scene = Scene {
         dt: 1.0 / 60.0,
         length: 5.0,
         fixed: 1e-12,
-        toleranced: 1e-12,
-        tolerance: 1e-9,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-9, error: 1e-12 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[],
 };

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Answer, Check, Column, Motion, Scene, at, weightless};
+use super::{Answer, Check, Column, Judged, Motion, Scene, Toleranced, at, weightless};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::Central;
@@ -54,9 +54,8 @@ pub static KEPLER: Scene = Scene {
         dt: TAU / 500.0,
         length: 1.0,
         fixed: 1e-2,
-        toleranced: 1e-10,
-        tolerance: 1e-12,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-12, error: 1e-10 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[
         Check {
@@ -123,9 +122,8 @@ pub static CIRCLE: Scene = Scene {
         dt: 1.0 / 60.0,
         length: RADIUS,
         fixed: 1e-3,
-        toleranced: 1e-9,
-        tolerance: 1e-10,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-10, error: 1e-9 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[],
 };

@@ -1,6 +1,6 @@
 //! Rotation: decay, free spin, and a torque that varies in time.
 
-use super::{Answer, Check, Column, Motion, Scene, weightless};
+use super::{Answer, Check, Column, Judged, Motion, Scene, Toleranced, weightless};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::Oscillating;
@@ -35,9 +35,8 @@ pub static SPIN_DECAY: Scene = Scene {
         dt: 1.0 / 60.0,
         length: 0.5 * 12.5,
         fixed: 1e-12,
-        toleranced: 1e-13,
-        tolerance: 1e-9,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-9, error: 1e-13 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[Check {
         what: "angular velocity at t = 5 against ω₀e^(−ct)",
@@ -63,9 +62,8 @@ pub static FREE_SPIN: Scene = Scene {
         dt: 1.0 / 60.0,
         length: 0.5 * 1e5,
         fixed: 1e-12,
-        toleranced: 1e-12,
-        tolerance: 1e-9,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-9, error: 1e-12 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[Check {
         what: "length of the rotation against 1",
@@ -117,9 +115,8 @@ pub static VARYING_TORQUE: Scene = Scene {
         dt: 1.0 / 60.0,
         length: 0.5,
         fixed: 1e-3,
-        toleranced: 1e-9,
-        tolerance: 1e-10,
-        by_method: true,
+        toleranced: Some(Toleranced { tolerance: 1e-10, error: 1e-9 }),
+        judged: Judged::AllMethods,
     }),
     checks: &[],
 };

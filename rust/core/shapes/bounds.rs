@@ -101,6 +101,13 @@ impl Aabb {
     pub fn contains(&self, p: Vec2) -> bool {
         self.min.x <= p.x && p.x <= self.max.x && self.min.y <= p.y && p.y <= self.max.y
     }
+
+    /// How far the two boxes are apart (m), 0 where they share a point.
+    #[must_use]
+    pub fn distance(&self, other: &Self) -> Real {
+        (other.min - self.max).sup(&(self.min - other.max)).sup(&Vec2::zeros()).norm()
+    }
+
     /// Half the length of the border, width + height (m): in the plane, the chance that a line meets the box
     /// goes with it.
     #[must_use]

@@ -21,8 +21,9 @@ impl World {
     /// Removes a body and the schedules on it. The last body takes its place in body order.
     pub fn remove_body(&mut self, body: BodyHandle) -> Result<()> {
         let index = self.state.bodies.index(body)?;
+        self.state.contacts.remove(&self.state.bodies, index);
         self.state.bodies.remove(body)?;
-        self.state.contacts.remove(index);
+        self.forget_strays(index);
         self.state.schedules.retain(|schedule| schedule.body != body);
         self.plan = None;
         Ok(())
@@ -174,7 +175,7 @@ impl BodyMut<'_> {
         check::finite_vec("position", position)?;
         let (i, angle) = (self.index, self.get().angle());
         self.bodies().set_origin(i, Pose::new(position, angle));
-        self.world.state.contacts.touch(i);
+        self.world.placed(i);
         Ok(())
     }
 
@@ -183,7 +184,7 @@ impl BodyMut<'_> {
         check::finite_vec("center_at", center)?;
         let i = self.index;
         self.bodies().poses[i].position = center;
-        self.world.state.contacts.touch(i);
+        self.world.placed(i);
         Ok(())
     }
 
@@ -192,7 +193,7 @@ impl BodyMut<'_> {
         check::finite("angle", angle)?;
         let (i, position) = (self.index, self.get().position());
         self.bodies().set_origin(i, Pose::new(position, angle));
-        self.world.state.contacts.touch(i);
+        self.world.placed(i);
         Ok(())
     }
 
@@ -276,6 +277,7 @@ impl BodyMut<'_> {
     fn edit(&mut self, edit: impl FnOnce(&mut BodyDef)) -> Result<()> {
         let i = self.index;
         self.bodies().edit(i, edit)?;
+        self.world.forget_strays(i);
         self.world.state.contacts.replace(&self.world.state.bodies, i);
         self.world.plan = None;
         Ok(())

@@ -106,14 +106,24 @@ impl World {
             }
         }
         let vector = |i: usize| Vec2::new(values[2 * i], values[2 * i + 1]);
+        if matches!(column, Column::Positions | Column::Angles) {
+            self.state.contacts.touch_all();
+            self.strays.take();
+        }
         let bodies = &mut self.state.bodies;
         match column {
-            Column::Positions => (0..n).for_each(|i| {
-                bodies.set_origin(i, Pose::new(vector(i), bodies.poses[i].angle));
-            }),
-            Column::Angles => (0..n).for_each(|i| {
-                bodies.set_origin(i, Pose::new(bodies.origin(i).position, values[i]));
-            }),
+            Column::Positions => {
+                for i in 0..n {
+                    bodies.set_origin(i, Pose::new(vector(i), bodies.poses[i].angle));
+                }
+                self.state.contacts.touch_all();
+            }
+            Column::Angles => {
+                for (i, angle) in values.iter().enumerate() {
+                    bodies.set_origin(i, Pose::new(bodies.origin(i).position, *angle));
+                }
+                self.state.contacts.touch_all();
+            }
             Column::Velocities => {
                 self.write_twists(|i, twist| Twist::new(vector(i), twist.angular))?;
             }

@@ -5,6 +5,7 @@ mod bodies;
 mod columns;
 mod contacts;
 mod plan;
+mod queries;
 mod report;
 mod snapshot;
 mod step;
@@ -12,12 +13,14 @@ mod stepper;
 
 pub use bodies::{BodyMut, BodyRef};
 pub use columns::Column;
+pub use contacts::{Contact, ContactEvent, ContactHooks, Events, PreSolve, ShapeView};
 pub use plan::Plan;
+pub use queries::{Nearest, QueryFilter, RayHit, ShapeId, distance_between};
 pub use report::{StageTime, StepReport, Trajectory};
 pub use snapshot::Snapshot;
 pub use stepper::{Frame, Stepper};
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use serde::{Deserialize, Serialize};
 
@@ -116,18 +119,24 @@ struct State {
 pub struct World {
     state: State,
     fields: Vec<Arc<dyn ForceField>>,
+    hooks: Option<Arc<dyn ContactHooks>>,
     method: &'static dyn Method,
     plan: Option<Plan>,
     /// Some body has a force for the next step.
     applied: bool,
     report: StepReport,
+    events: Events,
     scratch: WorldScratch,
+    /// What has left the boxes of detection; found when a query asks for it. No part of the state, so that
+    /// queries change nothing of what steps do.
+    strays: OnceLock<contacts::Strays>,
 }
 
 /// Columns a step works in; no part of the state.
 #[derive(Clone, Default)]
 struct WorldScratch {
     backup: step::Backup,
+    start: step::Start,
     steady: Vec<crate::math::Wrench>,
     forces: ForceBuffers,
     methods: Scratch,
@@ -167,11 +176,14 @@ impl World {
         Self {
             state,
             fields,
+            hooks: None,
             method,
             plan: None,
             applied,
             report: StepReport::default(),
+            events: Events::default(),
             scratch: WorldScratch::default(),
+            strays: OnceLock::new(),
         }
     }
 

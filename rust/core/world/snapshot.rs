@@ -27,7 +27,7 @@ struct Stored {
 }
 
 /// Changes with the layout of [`State`].
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 impl World {
     /// Keeps the world as it is.
@@ -36,9 +36,12 @@ impl World {
         Snapshot { state: self.state.clone(), fields: self.fields.clone() }
     }
 
-    /// Goes back to a snapshot, of this world or of another. Handles of then are valid again.
+    /// Goes back to a snapshot, of this world or of another. Handles of then are valid again. The hooks of this world
+    /// stay.
     pub fn restore(&mut self, snapshot: &Snapshot) {
+        let hooks = self.hooks.take();
         *self = Self::from_state(snapshot.state.clone(), snapshot.fields.clone());
+        self.hooks = hooks;
     }
 }
 
@@ -127,7 +130,7 @@ impl Snapshot {
             }
         }
         stored.state.bodies.rebuild();
-        stored.state.contacts.rebuild();
+        stored.state.contacts.rebuild(&stored.state.bodies);
         Ok(Self { state: stored.state, fields })
     }
 }

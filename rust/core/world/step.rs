@@ -9,7 +9,7 @@ use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
-use crate::world::contacts::ContactBackup;
+use crate::world::contacts::{Change, ContactBackup, Patch};
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -22,7 +22,38 @@ pub(super) struct Backup {
     contacts: Option<ContactBackup>,
     clock: Clock,
     ledger: Ledger,
+    /// What began or ended to touch and is not told yet.
+    changes: Vec<Change>,
 }
+
+/// The moving part of a world at the start of a step, to take the step again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Start {
+    poses: Vec<Pose>,
+    twists: Vec<Twist>,
+    patches: Vec<Patch>,
+    clock: Clock,
+    ledger: Ledger,
+}
+
+impl Start {
+    fn save(&mut self, state: &State) {
+        self.poses.clone_from(&state.bodies.poses);
+        self.twists.clone_from(&state.bodies.twists);
+        self.patches.clone_from(&state.contacts.patches);
+        (self.clock, self.ledger) = (state.clock, state.ledger);
+    }
+
+    fn restore(&mut self, state: &mut State) {
+        state.bodies.poses.clone_from(&self.poses);
+        state.bodies.twists.clone_from(&self.twists);
+        state.contacts.patches.clone_from(&self.patches);
+        (state.clock, state.ledger) = (self.clock, self.ledger);
+    }
+}
+
+/// How often a step is taken because a body was thrown too far; the last time with what it got.
+const MOST_TRIES: u32 = 6;
 
 impl World {
     /// Moves the world on by dt (s), at a fixed step.
@@ -66,18 +97,52 @@ impl World {
             world.planned();
             Ok(())
         })?;
-        if self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty()) {
-            self.stage("detect", |world| {
-                world.detect(dt);
+        self.scratch.contacts.start = self.state.clock.now;
+        if self.plan.as_ref().is_some_and(|plan| plan.colliding.is_empty()) {
+            self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+        } else {
+            self.collide_and_advance(dt)?;
+        }
+        if self.notices() {
+            self.stage("events", |world| {
+                world.notice();
                 Ok(())
             })?;
+        }
+        self.stage("report", |world| world.finish(dt))
+    }
+
+    /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
+    /// the step is taken again with that in view.
+    fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
+        let hits = self.events.hit.len();
+        let mut spread = 0.0;
+        for _ in 0..MOST_TRIES {
+            self.stage("detect", |world| world.detect(dt, spread))?;
             self.stage("islands", |world| {
                 world.find_islands();
                 Ok(())
             })?;
+            let watched = self.scratch.contacts.watched;
+            if watched {
+                self.scratch.start.save(&self.state);
+            }
+            self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
+            let thrown = self.scratch.contacts.thrown;
+            if !watched || thrown == 0.0 {
+                break;
+            }
+            spread = 2.0 * thrown;
+            self.scratch.start.restore(&mut self.state);
+            self.events.hit.truncate(hits);
         }
-        self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
-        self.stage("report", |world| world.finish(dt))
+        Ok(())
+    }
+
+    /// Whether something can begin or end to touch in a step.
+    fn notices(&self) -> bool {
+        let colliding = self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty());
+        colliding || self.state.contacts.touching.changed()
     }
 
     /// Runs a stage, timed if timing is on.
@@ -98,14 +163,17 @@ impl World {
     /// Runs `work`; if it fails, the world is put back as it was.
     pub(super) fn attempt<T>(&mut self, work: impl FnOnce(&mut Self) -> Result<T>) -> Result<T> {
         self.planned();
+        self.strays.take();
         if let Some(plan) = &self.plan {
             self.scratch.backup.save(&self.state, plan, self.applied);
         }
         let report = std::mem::take(&mut self.report);
+        self.events.clear();
         let result = work(self);
         if result.is_err() {
             self.applied = self.scratch.backup.restore(&mut self.state);
             self.report = report;
+            self.events.clear();
         }
         result
     }
@@ -166,6 +234,8 @@ impl World {
 
     /// Moves every body through a span at the fixed step.
     fn advance_span(&mut self, span: Span) -> Result<()> {
+        // First what touches, while bodies whose motion is given still stand where the step begins.
+        self.advance_contacts(span)?;
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
         let result = plan.runs().try_for_each(|run| {
@@ -176,8 +246,7 @@ impl World {
             self.advance_run(run, span, plan.resistance)
         });
         self.plan = Some(plan);
-        result?;
-        self.advance_contacts(span)
+        result
     }
 
     /// Moves the bodies whose solution is known.
@@ -279,6 +348,8 @@ impl Backup {
             self.contacts.get_or_insert_default().save(&state.contacts);
         }
         (self.clock, self.ledger) = (state.clock, state.ledger);
+        self.changes.clear();
+        self.changes.extend_from_slice(state.contacts.touching.changes());
     }
 
     /// Puts the state back, and says whether forces wait for the next step.
@@ -294,6 +365,8 @@ impl Backup {
             contacts.restore(&mut state.contacts);
         }
         (state.clock, state.ledger) = (self.clock, self.ledger);
+        state.contacts.touching.set_changes(&self.changes);
+        state.contacts.retell(state.bodies.handles());
         applied
     }
 }

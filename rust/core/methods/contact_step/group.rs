@@ -24,6 +24,17 @@ impl Mass {
     }
 }
 
+/// Whether arrivals of a contact are looked for, so that an impact comes of each.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Watched {
+    /// No: its rows foresee it.
+    No,
+    /// It bounces: when the features that are nearest now meet.
+    Bounces,
+    /// It moves too far in a substep for its rows and features to foresee: when the shapes meet, wherever.
+    Swift,
+}
+
 /// What the step needs of a contact beside its rows.
 #[derive(Clone, Copy, Debug)]
 pub struct Link {
@@ -37,18 +48,52 @@ pub struct Link {
     pub width: Real,
     /// Where the contact is kept.
     pub place: u32,
-    /// J̇v of points that carry a load (m/s²).
+    /// J̇v of points that carry a load or are apart (m/s²).
     pub curvature: [Real; 2],
+    /// The same along the surface where the load sticks to it.
+    pub turning: Real,
+    /// Tangential velocity (m/s) of B against A at which nothing slides.
+    pub tangent_speed: Real,
+    /// Corners that come nearer and yet go past one another.
+    pub passes: [bool; 2],
     /// Approach (m/s) up to which a contact rests and does not bounce: what the substep's kicks give it.
     pub resting: [Real; 2],
-    /// Arrivals are looked for: it bounces, or moves too far in a substep for its rows to foresee.
-    pub watched: bool,
+    /// Whether arrivals are looked for.
+    pub watched: Watched,
+    /// Where a swift contact is going to meet.
+    pub found: Manifold,
+    /// It met in this substep.
+    pub met: bool,
+    /// It is apart in this substep: no row.
+    pub apart_now: bool,
     /// Points that are watched and stand beside the face, where there is nothing to touch.
     pub beside: [bool; 2],
-    /// Normal impulses of impacts in the step (N·s), for events.
-    pub impact: Real,
-    /// Fastest approach of an impact in the step (m/s).
+    /// Its impacts in the step.
+    pub hit: Hit,
+    /// Normal impulses of the rows in the step (N·s).
+    pub passed: Real,
+}
+
+/// Impacts of a contact in a step, for events. Time, place and speed are those of the fastest.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// Normal impulses of all (N·s).
+    pub impulse: Real,
+    /// Approach (m/s); 0 where there was none.
     pub approach: Real,
+    /// When (s).
+    pub time: Real,
+    /// Where, from A's centre of mass at the start of the step (m).
+    pub point: Vec2,
+    /// Normal, from A to B.
+    pub normal: Vec2,
+}
+
+impl Default for Hit {
+    fn default() -> Self {
+        let zero = Vec2::zeros();
+        Self { impulse: 0.0, approach: 0.0, time: 0.0, point: zero, normal: zero }
+    }
 }
 
 /// Bodies that move together, in slots, and their contacts. Kept between steps, so that a warm step
@@ -61,6 +106,10 @@ pub struct Group {
     pub velocities: Vec<Velocity>,
     /// Places.
     pub places: Vec<Place>,
+    /// Angles at the start of the step (rad).
+    pub angles: Vec<Real>,
+    /// How far from its start each body may get before what it can meet must be looked for anew (m).
+    pub reach: Vec<Real>,
     /// Masses.
     pub masses: Vec<Mass>,
     /// Rows.
@@ -69,10 +118,12 @@ pub struct Group {
     pub links: Vec<Link>,
     /// Some surface is driven: a kinematic body or a conveyor.
     pub driven: bool,
+    /// Length of the substep (s).
+    pub(super) h: Real,
+    /// World time in the middle of the substep (s).
+    pub(super) middle: Real,
     /// Velocities before the rows.
     pub(super) free: Vec<Twist>,
-    /// h²/8: times its acceleration, how far a body's path is beyond the place after a drift of h/2 (s²).
-    pub(super) sag: Real,
     /// Where impacts may come.
     pub(super) watch: Watch,
 }
@@ -84,10 +135,19 @@ impl Group {
         self.velocities.clear();
         self.places.clear();
         self.masses.clear();
+        self.angles.clear();
+        self.reach.clear();
         self.blocks.clear();
         self.links.clear();
         self.driven = false;
         self.watch.clear();
+    }
+
+    /// How far a body has got beyond what was foreseen when what it can meet was looked for (m).
+    pub(super) fn farthest_thrown(&self) -> Real {
+        let ways = self.places.iter().map(|place| place.way.norm());
+        let thrown = ways.zip(&self.reach).filter(|(way, reach)| way > *reach);
+        thrown.map(|(way, _)| way).fold(0.0, Real::max)
     }
 
     /// Books what the rows of a substep took from the bodies.
@@ -112,16 +172,16 @@ impl Group {
     }
 
     fn driving_work(&self) -> Real {
-        let work = |block: &Block| {
+        let work = |(block, link): (&Block, &Link)| {
             let bodies = block.bodies.map(|slot| &self.velocities[slot as usize]);
-            driving_work(block, &block.impulse, bodies)
+            driving_work(block, (&block.impulse, link.tangent_speed), bodies)
         };
-        self.blocks.iter().map(work).sum()
+        self.blocks.iter().zip(&self.links).map(work).sum()
     }
 
     /// Adds a contact, watched where it bounces or is swift.
     pub fn add_contact(&mut self, block: Block, link: Link) {
-        if link.watched {
+        if link.watched != Watched::No {
             self.watch.blocks.push(self.blocks.len() as u32);
         }
         self.blocks.push(block);
@@ -130,9 +190,13 @@ impl Group {
 }
 
 /// Work (J) that bodies with given motion and conveyors do through the impulses of a block.
-pub(super) fn driving_work(block: &Block, impulse: &[Real; 3], [a, b]: [&Velocity; 2]) -> Real {
+pub(super) fn driving_work(
+    block: &Block,
+    (impulse, tangent_speed): (&[Real; 3], Real),
+    [a, b]: [&Velocity; 2],
+) -> Real {
     let (n, t) = (block.normal, block.tangent());
-    let mut work = impulse[2] * block.target[2];
+    let mut work = impulse[2] * tangent_speed;
     for (k, direction) in [n, n, t].into_iter().enumerate() {
         let [arm_a, arm_b] = block.arms[k];
         // On the other body acts p along the direction; at the speed of the surface it does this work.

@@ -8,11 +8,11 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::law;
-use super::path::Pair;
-use super::{Group, Outcome};
+use super::path::{NEAR, Pair};
+use super::{Group, Outcome, Surroundings, Watched};
 use crate::body::ImpactLaw;
 use crate::constraints::contact::{Block, moved};
-use crate::math::{Real, Twist};
+use crate::math::{Real, Twist, Vec2};
 
 /// An impact that may come, the first on top of the heap.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +52,10 @@ pub struct Watch {
     of_slot: Vec<u32>,
     /// Impacts of each slot in this substep.
     seen: Vec<u32>,
+    /// Time since which each slot is on its present way, from the middle of the substep (s).
+    since: Vec<Real>,
+    /// The rows are solved: swift bodies alone are looked at, and no kick is to come.
+    after_rows: bool,
 }
 
 impl Watch {
@@ -80,27 +84,83 @@ impl Watch {
         }
     }
 
+    /// Begins a substep.
+    fn start(&mut self, group: &Group, from: Real) {
+        let slots = group.velocities.len();
+        if self.first.is_empty() {
+            self.index(slots, &group.blocks);
+        }
+        self.seen.clear();
+        self.seen.resize(slots, 0);
+        self.since.clear();
+        self.since.resize(slots, from);
+    }
+
+    /// Whether swift contacts are watched.
+    pub fn has_swift(&self, group: &Group) -> bool {
+        self.blocks.iter().any(|k| group.links[*k as usize].watched == Watched::Swift)
+    }
+
     fn stamp(&self, [a, b]: [u32; 2]) -> u32 {
         self.seen[a as usize] + self.seen[b as usize]
     }
 }
 
-/// Resolves the impacts of a substep. The velocities are those of its middle.
-pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome) {
+/// Resolves the impacts of a substep. The velocities are those of its middle, by half the kick.
+pub fn resolve(
+    group: &mut Group,
+    h: Real,
+    law: ImpactLaw,
+    (around, outcome): (&dyn Surroundings, &mut Outcome),
+) {
     if group.watch.blocks.is_empty() {
         return;
     }
     let mut watch = std::mem::take(&mut group.watch);
-    if watch.first.is_empty() {
-        watch.index(group.velocities.len(), &group.blocks);
-    }
-    group.sag = h * h / 8.0;
-    watch.seen.clear();
-    watch.seen.resize(group.velocities.len(), 0);
-    let mut queue = BinaryHeap::new();
+    watch.start(group, -h / 2.0);
+    group.h = h;
     for k in &watch.blocks {
         set_resting(group, *k as usize, h);
-        queue.extend(next_event(group, &watch, *k, [-h / 2.0, h / 2.0]));
+        group.links[*k as usize].met = false;
+    }
+    strike_all(group, &mut watch, h / 2.0, law, (around, outcome));
+    for k in &watch.blocks {
+        if group.links[*k as usize].watched == Watched::Swift {
+            look_again(group, &watch, *k as usize, around);
+        }
+    }
+    if watch.seen.iter().any(|seen| *seen > 0) {
+        place_struck(group, &watch);
+    }
+    group.watch = watch;
+}
+
+/// Resolves what swift bodies meet in the second half of the substep, after the rows have turned them.
+pub fn resolve_turned(
+    group: &mut Group,
+    h: Real,
+    law: ImpactLaw,
+    (around, outcome): (&dyn Surroundings, &mut Outcome),
+) {
+    let mut watch = std::mem::take(&mut group.watch);
+    watch.after_rows = true;
+    watch.since.iter_mut().for_each(|since| *since = since.max(0.0));
+    strike_all(group, &mut watch, h / 2.0, law, (around, outcome));
+    watch.after_rows = false;
+    group.watch = watch;
+}
+
+/// Impacts one after the other up to a time.
+fn strike_all(
+    group: &mut Group,
+    watch: &mut Watch,
+    to: Real,
+    law: ImpactLaw,
+    (around, outcome): (&dyn Surroundings, &mut Outcome),
+) {
+    let mut queue = BinaryHeap::new();
+    for k in &watch.blocks {
+        queue.extend(next_event(group, (watch, around), *k, to));
     }
     // Enough for every pair to meet many times; what a collapse leaves is for the rows.
     let mut left = 64 + 32 * watch.blocks.len();
@@ -113,26 +173,38 @@ pub fn resolve(group: &mut Group, h: Real, law: ImpactLaw, outcome: &mut Outcome
             break;
         }
         left -= 1;
-        strike(group, &event, law, outcome);
-        for slot in bodies {
-            let fixed = group.velocities[slot as usize].is_fixed();
-            watch.seen[slot as usize] += u32::from(!fixed);
+        strike(group, (&event, watch.after_rows), law, outcome);
+        let free = bodies.map(|slot| !group.velocities[slot as usize].is_fixed());
+        for slot in (0..2).filter(|side| free[*side]).map(|side| bodies[side] as usize) {
+            watch.seen[slot] += 1;
+            watch.since[slot] = event.time;
         }
-        for slot in bodies {
-            if group.velocities[slot as usize].is_fixed() {
-                continue;
-            }
-            let [from, to] = [0, 1].map(|k| watch.first[slot as usize + k] as usize);
-            for k in &watch.of_slot[from..to] {
-                queue.extend(next_event(group, &watch, *k, [event.time, h / 2.0]));
+        for slot in (0..2).filter(|side| free[*side]).map(|side| bodies[side] as usize) {
+            let [from, until] = [0, 1].map(|k| watch.first[slot + k] as usize);
+            for k in from..until {
+                queue.extend(next_event(group, (watch, around), watch.of_slot[k], to));
             }
         }
     }
-    let struck = watch.seen.iter().any(|seen| *seen > 0);
-    if struck {
-        place_struck(group, &watch);
+}
+
+/// Which features of a swift contact touch now, for its rows: those that met in an impact, or those that the middle of
+/// the substep shows, or the moment of the last impact after it, since before that a body's way is not its own; none if
+/// the shapes are apart there.
+fn look_again(group: &mut Group, watch: &Watch, k: usize, around: &dyn Surroundings) {
+    let [since_a, since_b] = group.blocks[k].bodies.map(|slot| watch.since[slot as usize]);
+    let now = since_a.max(since_b).max(0.0);
+    let pair = pair(group, k, false);
+    let middle = [0, 1].map(|side| pair.way(side, [now, now]));
+    let link = &mut group.links[k];
+    if !link.met {
+        let touching = around.meet(link, &middle, NEAR * link.width);
+        link.apart_now = touching.is_none();
+        link.manifold = touching.map_or(link.manifold, |(_, manifold)| manifold);
     }
-    group.watch = watch;
+    let block = &mut group.blocks[k];
+    (block.impulse, block.count) = ([0.0; 3], link.manifold.count as u8);
+    super::place_block(group, k, now);
 }
 
 /// The approach that the kicks of the substep give a contact by themselves, and rounding.
@@ -150,28 +222,56 @@ fn set_resting(group: &mut Group, k: usize, h: Real) {
     }
 }
 
-fn next_event(group: &Group, watch: &Watch, block: u32, [from, to]: [Real; 2]) -> Option<Event> {
-    let bodies = group.blocks[block as usize].bodies;
-    let arrival = pair(group, block as usize).first_arrival(from, to)?;
+fn next_event(
+    group: &mut Group,
+    (watch, around): (&Watch, &dyn Surroundings),
+    block: u32,
+    to: Real,
+) -> Option<Event> {
+    let k = block as usize;
+    let bodies = group.blocks[k].bodies;
+    let [since_a, since_b] = bodies.map(|slot| watch.since[slot as usize]);
+    let from = since_a.max(since_b);
+    let arrival = if group.links[k].watched == Watched::Swift {
+        let pair = pair(group, k, watch.after_rows);
+        let (arrival, manifold) = pair.first_meeting([from, to], around)?;
+        group.links[k].found = manifold;
+        arrival
+    } else if watch.after_rows {
+        return None;
+    } else {
+        pair(group, k, false).first_arrival(from, to)?
+    };
     let stamp = watch.stamp(bodies);
     Some(Event { time: arrival.time, approach: arrival.approach, block, stamp })
 }
 
-fn pair(group: &Group, k: usize) -> Pair<'_> {
+fn pair(group: &Group, k: usize, kicked: bool) -> Pair<'_> {
     let [a, b] = group.blocks[k].bodies.map(|slot| slot as usize);
     Pair {
         link: &group.links[k],
         places: [&group.places[a], &group.places[b]],
         velocities: [&group.velocities[a], &group.velocities[b]],
-        sag: group.sag,
+        angles: [group.angles[a], group.angles[b]],
+        kicked,
+        h: group.h,
     }
 }
 
 /// One impact.
-fn strike(group: &mut Group, event: &Event, law: ImpactLaw, outcome: &mut Outcome) {
+fn strike(
+    group: &mut Group,
+    (event, kicked): (&Event, bool),
+    law: ImpactLaw,
+    outcome: &mut Outcome,
+) {
     let k = event.block as usize;
+    if group.links[k].watched == Watched::Swift {
+        let link = &mut group.links[k];
+        (link.manifold, link.met, link.apart_now) = (link.found, true, false);
+    }
     let (link, time) = (group.links[k], event.time);
-    let pair = pair(group, k);
+    let pair = pair(group, k, kicked);
     let (places, velocities) = (pair.places_at(time), pair.velocities_at(time));
     let bodies = [&velocities[0], &velocities[1]];
     let at = moved(&link.manifold, link.apart, [&places[0], &places[1]]);
@@ -182,22 +282,29 @@ fn strike(group: &mut Group, event: &Event, law: ImpactLaw, outcome: &mut Outcom
     let mut u = block.velocity(bodies);
     u[2] -= block.target[2];
     let mut restitution = [0.0; 2];
+    let touching = if link.watched == Watched::Swift { 4.0 * NEAR } else { 1e-9 };
     for p in 0..2 {
-        let touches = p < link.manifold.count && at.gap[p] <= 1e-9 * link.width;
+        let touches = p < link.manifold.count && at.gap[p] <= touching * link.width;
         block.on[p] = touches && u[p] < 0.0;
         restitution[p] = if -u[p] > link.resting[p] { link.restitution } else { 0.0 };
     }
     block.prepare(bodies);
     let impulse = law::impulses(law, &block, u, restitution);
+
     outcome.impacts += 1;
     outcome.ledger.dissipated -= law::gain(&block, &u, &impulse);
     if group.driven {
-        let given = super::group::driving_work(&block, &impulse, bodies);
+        let given = super::group::driving_work(&block, (&impulse, link.tangent_speed), bodies);
         outcome.ledger.work += given;
     }
-    let link = &mut group.links[k];
-    link.impact += impulse[0] + impulse[1];
-    link.approach = link.approach.max(event.approach);
+    let hit = &mut group.links[k].hit;
+    hit.impulse += impulse[0] + impulse[1];
+    if event.approach > hit.approach {
+        (hit.approach, hit.time, hit.normal) = (event.approach, group.middle + time, block.normal);
+        let struck = (0..link.manifold.count).filter(|p| block.on[*p]);
+        let points = struck.clone().map(|p| at.surface_point(&link.manifold, p));
+        hit.point = places[0].way + points.sum::<Vec2>() / struck.count().max(1) as Real;
+    }
     let [a, b] = block.bodies;
     let before = [a, b].map(|slot| group.velocities[slot as usize].twist);
     block.push(crate::solvers::sweep::pair(&mut group.velocities, [a, b]), impulse);
@@ -208,12 +315,14 @@ fn strike(group: &mut Group, event: &Event, law: ImpactLaw, outcome: &mut Outcom
     }
 }
 
-/// Takes the geometry of the middle anew where an impact moved it.
+/// Takes the geometry anew where an impact moved it: that of the middle, or of the last impact if it came after,
+/// because the path that the bodies take from there was not theirs before.
 fn place_struck(group: &mut Group, watch: &Watch) {
     for k in 0..group.blocks.len() {
-        let struck = |slot: &u32| watch.seen[*slot as usize] > 0;
-        if group.blocks[k].bodies.iter().any(struck) {
-            super::place_block(group, k);
+        let slots = group.blocks[k].bodies.map(|slot| slot as usize);
+        if slots.iter().any(|slot| watch.seen[*slot] > 0) {
+            let time = slots.map(|slot| watch.since[slot]);
+            super::place_block(group, k, time[0].max(time[1]).max(0.0));
         }
     }
 }

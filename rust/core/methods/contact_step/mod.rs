@@ -15,6 +15,7 @@ mod path;
 mod project;
 
 use crate::body::ImpactLaw;
+use crate::collision::{Manifold, Sweep};
 use crate::constraints::Place;
 use crate::constraints::contact::{Block, curvature, moved};
 use crate::error::Result;
@@ -22,7 +23,7 @@ use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
-pub use group::{Group, Link, Mass};
+pub use group::{Group, Hit, Link, Mass, Watched};
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {
@@ -37,6 +38,10 @@ pub trait Surroundings {
     /// # Errors
     /// Motion that the flow of the drag cannot give.
     fn drift(&mut self, h: Real, group: &mut Group) -> Result<Real>;
+
+    /// First fraction of the ways of the two bodies of a contact at which their shapes are within `target` (m) of
+    /// one another, and the manifold there. The ways are counted from A's centre of mass at the start of the step.
+    fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)>;
 }
 
 /// How hard to try.
@@ -59,6 +64,8 @@ pub struct Outcome {
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
     pub residual: Real,
+    /// How far a body was thrown that may have met what was not looked for (m); 0 where none was.
+    pub thrown: Real,
 }
 
 /// Moves a group through a span.
@@ -78,11 +85,18 @@ pub fn run(
         around.accelerate(span.time(k) + h / 2.0, group)?;
         place_blocks(group);
         kick(group, h / 2.0);
-        impacts::resolve(group, h, settings.law, &mut outcome);
+        group.middle = span.time(k) + h / 2.0;
+        impacts::resolve(group, h, settings.law, (around, &mut outcome));
         kick(group, h / 2.0);
         solve_rows(group, h, settings, &mut outcome);
+        if group.watch.has_swift(group) {
+            impacts::resolve_turned(group, h, settings.law, (around, &mut outcome));
+        }
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         outcome.ledger.correction_work += project::apart(group, h);
+        if !group.watch.blocks.is_empty() {
+            outcome.thrown = outcome.thrown.max(group.farthest_thrown());
+        }
     }
     Ok(outcome)
 }
@@ -90,25 +104,45 @@ pub fn run(
 /// Geometry of the midpoint.
 fn place_blocks(group: &mut Group) {
     for k in 0..group.blocks.len() {
-        place_block(group, k);
+        place_block(group, k, 0.0);
     }
 }
 
-fn place_block(group: &mut Group, k: usize) {
+/// Geometry of block k at a time from the middle.
+fn place_block(group: &mut Group, k: usize, time: Real) {
     let Group { velocities, places, blocks, links, .. } = group;
     let (block, link) = (&mut blocks[k], &mut links[k]);
     let [a, b] = block.bodies.map(|slot| slot as usize);
-    let bodies = [&places[a], &places[b]];
+    let later: [Place; 2];
+    let bodies = if time > 0.0 {
+        later = [a, b].map(|slot| {
+            let mut place = places[slot];
+            place.drift(&velocities[slot].twist, time);
+            place
+        });
+        [&later[0], &later[1]]
+    } else {
+        [&places[a], &places[b]]
+    };
     let at = moved(&link.manifold, link.apart, bodies);
     block.place(&link.manifold, &at, [&velocities[a], &velocities[b]]);
+    block.target[2] = link.tangent_speed;
+    link.turning = 0.0;
+    let load = block.impulse[0] + block.impulse[1];
+    let twists = [&velocities[a].twist, &velocities[b].twist];
     for p in 0..link.manifold.count {
-        link.beside[p] = link.watched && !path::on_face(&link.manifold, &at, p, link.width);
-        link.curvature[p] = if block.impulse[p] > 0.0 {
-            let twists = [&velocities[a].twist, &velocities[b].twist];
-            curvature(&link.manifold, &at, (link.apart, p), bodies, twists)
-        } else {
-            0.0
-        };
+        link.beside[p] =
+            link.watched == Watched::Bounces && !path::on_face(&link.manifold, &at, p, link.width);
+        let (loaded, apart) = (block.impulse[p] > 0.0, at.gap[p] > 0.0);
+        link.passes[p] = !loaded && apart && path::passes(&link.manifold, &at, p, twists);
+        link.curvature[p] = 0.0;
+        if loaded || apart {
+            let [normal, tangent] = curvature(&link.manifold, &at, (link.apart, p), bodies, twists);
+            link.curvature[p] = normal;
+            // Of several points the friction acts as if at the one where their load is.
+            let share = if block.sliding || !loaded { 0.0 } else { block.impulse[p] / load };
+            link.turning += share * tangent;
+        }
     }
 }
 
@@ -134,6 +168,8 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
                 row(link, (block, k), (along[k], kicked(block, k, [&places[a], &places[b]], h)), h);
             (block.target[k], block.on[k]) = (target, on);
         }
+        // What sticks obeys J(v⁻ + v⁺) = 0 along the surface as well, so that a rod that pivots keeps its energy.
+        block.target[2] = link.tangent_speed - 0.5 * h * link.turning;
         block.prepare(bodies);
         fastest = fastest.max(kick_along(block, [&places[a], &places[b]], h));
     }
@@ -143,6 +179,9 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
     let (sweeps, residual) = sweep::solve(velocities, blocks, budget);
     outcome.sweeps += u64::from(sweeps);
     outcome.residual = outcome.residual.max(residual);
+    for (block, link) in blocks.iter().zip(links) {
+        link.passed += block.impulse[0] + block.impulse[1];
+    }
     group.book_rows(h, &mut outcome.ledger);
 }
 
@@ -172,23 +211,29 @@ fn kicked(block: &Block, k: usize, [a, b]: [&Place; 2], h: Real) -> Real {
 /// Target of a normal row, and whether it takes part.
 ///
 /// Touching: v ≥ 0, or along a curve v ≥ −½h·J̇v, which with the velocity before makes J(v⁻ + v⁺) = 0. Not yet
-/// touching: v ≥ −s/h. A gap below what the curve itself opens in half a step counts as touching.
+/// touching: s + vh + ½J̇v·h² ≥ 0 in the next middle, where the curve opens. Under a load, a gap below what the curve
+/// itself opens in half a step counts as touching.
 fn row(
     link: &Link,
     (block, k): (&Block, usize),
     (along, kick): (Real, Real),
     h: Real,
 ) -> (Real, bool) {
+    if link.apart_now {
+        return (0.0, false);
+    }
     let gap = block.gap[k];
     let bend = link.curvature[k] * h;
+    let loaded = block.impulse[k] > 0.0;
     // What arrives by an impact is not braked before, and what passes by the face not at all.
-    let arrives = link.watched && along < -link.resting[k];
-    if gap <= (bend * h).abs() {
+    let arrives = link.watched != Watched::No && along < -link.resting[k];
+    if gap <= 0.0 || (loaded && gap <= (bend * h).abs()) {
         let (came, wanted) = ((kick - along).max(0.0), -0.5 * bend);
-        let target = if wanted > PERSISTS * came { came } else { wanted };
-        return (target, !(arrives && link.beside[k]));
+        let persisting = if wanted > PERSISTS * came { came } else { wanted };
+        return (if loaded { persisting } else { 0.0 }, !(arrives && link.beside[k]));
     }
-    (-gap / h, !arrives)
+    let opening = if loaded { 0.0 } else { 0.5 * bend.max(0.0) };
+    (-gap / h - opening, !arrives && !link.passes[k])
 }
 
 impl std::ops::AddAssign for Twist {

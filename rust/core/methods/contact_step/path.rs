@@ -1,10 +1,10 @@
 //! When two surfaces on their paths meet.
 
-use super::Link;
-use crate::collision::{Manifold, Normal};
+use super::{Link, Surroundings};
+use crate::collision::{Manifold, Normal, Sweep};
 use crate::constraints::contact::{Moved, curvature, moved};
 use crate::constraints::{Place, Velocity};
-use crate::math::{Real, Twist, perp};
+use crate::math::{Pose, Real, Twist, Vec2, perp};
 
 /// A contact that is about to be.
 #[derive(Clone, Copy, Debug)]
@@ -23,20 +23,25 @@ pub struct Pair<'a> {
     pub places: [&'a Place; 2],
     /// Velocities in the middle.
     pub velocities: [&'a Velocity; 2],
-    /// h²/8 of the substep (s²).
-    pub sag: Real,
+    /// Angles at the start of the step (rad).
+    pub angles: [Real; 2],
+    /// The kick of the substep is over: the velocities stay.
+    pub kicked: bool,
+    /// Length of the substep (s).
+    pub h: Real,
 }
 
 impl Pair<'_> {
-    /// Places at a time from the middle: x + ah²/8 + vτ + ½aτ². The drift of h/2 with the velocity of the start
-    /// has left x short of the middle of the parabola by ah²/8.
+    /// Places at a time from the middle: x + vτ + ½aτ² + ⅛ah². A body in flight has fallen by ⅛ah² more in half a
+    /// substep than the half drift with the velocity of its start moved it, and its path has to begin where it was.
     #[must_use]
     pub fn places_at(&self, time: Real) -> [Place; 2] {
         let at = |side: usize| {
             let mut place = *self.places[side];
             place.drift(&self.velocities[side].twist, time);
-            place.drift(&place.kick(0.5 * time), time);
-            place.drift(&place.kick(self.sag), 1.0);
+            if !self.kicked {
+                place.drift(&place.kick(0.5), time * time + 0.25 * self.h * self.h);
+            }
             place
         };
         [at(0), at(1)]
@@ -47,7 +52,9 @@ impl Pair<'_> {
     pub fn velocities_at(&self, time: Real) -> [Velocity; 2] {
         let at = |side: usize| {
             let mut velocity = *self.velocities[side];
-            velocity.twist += self.places[side].kick(time);
+            if !self.kicked {
+                velocity.twist += self.places[side].kick(time);
+            }
             velocity
         };
         [at(0), at(1)]
@@ -61,6 +68,46 @@ impl Pair<'_> {
         arrivals.min_by(|a, b| a.time.total_cmp(&b.time))
     }
 
+    /// First moment at which the shapes meet, whatever their features, faster than they may rest; and the manifold
+    /// then. For bodies that move or turn far in a substep.
+    #[must_use]
+    pub fn first_meeting(
+        &self,
+        [from, to]: [Real; 2],
+        around: &dyn Surroundings,
+    ) -> Option<(Arrival, Manifold)> {
+        // Where shapes touch and do not approach, another point may still swing in: it has come when the distance is
+        // half of what it is.
+        let mut target = NEAR * self.link.width;
+        let mut time = from;
+        while target > NEAREST * self.link.width && time < to {
+            let ways = [0, 1].map(|side| self.way(side, [time, to]));
+            let (fraction, manifold) = around.meet(self.link, &ways, target)?;
+            time += fraction * (to - time);
+            let (places, velocities) = (self.places_at(time), self.velocities_at(time));
+            let at = moved(&manifold, self.link.apart, [&places[0], &places[1]]);
+            let approach = |k: usize| -self.rates(&manifold, &at, k, (&places, &velocities)).0;
+            let approach = (0..manifold.count).map(approach).fold(0.0, Real::max);
+            let resting = self.link.resting[0].max(self.link.resting[1]);
+            if approach > resting {
+                return Some((Arrival { time, approach }, manifold));
+            }
+            let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
+            target = 0.5 * gap;
+        }
+        None
+    }
+
+    /// The way of a body between two times, from A's centre of mass at the start of the step.
+    pub fn way(&self, side: usize, times: [Real; 2]) -> Sweep {
+        let start = if side == 0 { Vec2::zeros() } else { self.link.apart };
+        let [from, to] = times.map(|time| {
+            let place = &self.places_at(time)[side];
+            Pose::new(start + place.way, self.angles[side] + place.turn)
+        });
+        Sweep { from, to }
+    }
+
     fn arrival(&self, k: usize, from: Real, to: Real) -> Option<Arrival> {
         // The path is nearly a parabola along the normal: quadratic steps settle in a few.
         const STEPS: usize = 24;
@@ -69,7 +116,7 @@ impl Pair<'_> {
         for step in 0..STEPS {
             let (places, velocities) = (self.places_at(time), self.velocities_at(time));
             let at = moved(manifold, self.link.apart, [&places[0], &places[1]]);
-            let (rate, bend) = self.rates(&at, k, (&places, &velocities));
+            let (rate, bend) = self.rates(manifold, &at, k, (&places, &velocities));
             let gap = at.gap[k];
             if gap <= SAME * self.link.width && (step > 0 || gap <= 0.0) {
                 let arrives =
@@ -87,6 +134,7 @@ impl Pair<'_> {
     /// Rate of the gap of point k and the rate of that rate.
     fn rates(
         &self,
+        manifold: &Manifold,
         at: &Moved,
         k: usize,
         (places, velocities): (&[Place; 2], &[Velocity; 2]),
@@ -98,9 +146,15 @@ impl Pair<'_> {
         let pushed = along(&places[0].acceleration, &places[1].acceleration);
         let link = self.link;
         let bodies = [&places[0], &places[1]];
-        (rate, pushed + curvature(&link.manifold, at, (link.apart, k), bodies, [va, vb]))
+        (rate, pushed + curvature(manifold, at, (link.apart, k), bodies, [va, vb])[0])
     }
 }
+
+/// Swift shapes meet when they are this part of the smaller width apart.
+pub const NEAR: Real = 1e-2;
+
+/// Down to which part of it further points are told from those that touch.
+const NEAREST: Real = 1e-5;
 
 /// A gap below this part of the width is none.
 const SAME: Real = 1e-14;
@@ -125,4 +179,13 @@ pub(super) fn on_face(manifold: &Manifold, at: &Moved, k: usize, width: Real) ->
     };
     let margin = 1e-9 * width;
     place >= low - margin && place <= high + margin
+}
+
+/// Whether two corners, sharp or round, come nearer to one another and yet go past, on straight ways.
+pub fn passes(manifold: &Manifold, at: &Moved, k: usize, [va, vb]: [&Twist; 2]) -> bool {
+    let [on_a, on_b] = at.arms[k];
+    let rate = vb.at(on_b) - va.at(on_a);
+    let radii = manifold.radius_a + manifold.radius_b;
+    let aside = perp(at.normal).dot(&rate).abs();
+    manifold.normal == Normal::Between && (at.gap[k] + radii) * aside > radii * rate.norm()
 }

@@ -1,8 +1,10 @@
 //! The stage that moves what touches: each group of bodies that contacts tie by the contact step.
 
+use super::hooks::Answer;
 use super::near::Kind;
+use super::{Contacts, FAR};
 use crate::body::Bodies;
-use crate::collision::Manifold;
+use crate::collision::{Frame, Manifold, Sweep, collide, first_impact};
 use crate::constraints::contact::Block;
 use crate::constraints::{Place, Velocity};
 use crate::error::Result;
@@ -10,7 +12,7 @@ use crate::forces::{Air, drift_body, has_resistance};
 use crate::islands::Islands;
 use crate::math::{Pose, Real, Twist, Vec2, Wrench};
 use crate::methods::Span;
-use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Surroundings};
+use crate::methods::contact_step::{self, Group, Hit, Link, Mass, Outcome, Surroundings, Watched};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -27,6 +29,14 @@ pub(in crate::world) struct ContactScratch {
     mark: u32,
     /// Bodies that the contact step has moved in this span.
     moved: Vec<bool>,
+    /// What the hooks said of each patch; empty where there are none.
+    pub answers: Vec<Answer>,
+    /// When the step began (s).
+    pub start: Real,
+    /// Some body may bounce or moves far in a step.
+    pub watched: bool,
+    /// How far a body was thrown that may have met what was not looked for (m).
+    pub thrown: Real,
 }
 
 impl ContactScratch {
@@ -47,15 +57,21 @@ impl World {
     pub(in crate::world) fn find_islands(&mut self) {
         let Self { state, scratch, .. } = self;
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
-        let ContactScratch { islands, links, solid, moved, .. } = &mut scratch.contacts;
+        let ContactScratch { islands, links, solid, moved, answers, thrown, watched, .. } =
+            &mut scratch.contacts;
         (links.clear(), solid.clear());
         moved.clear();
         moved.resize(masses.len(), false);
+        (*thrown, *watched) = (0.0, contacts.far);
         for (place, patch) in contacts.patches.iter().enumerate() {
             let near = &contacts.near[patch.near as usize];
+            if answers.get(place).is_some_and(|answer| !answer.on) {
+                continue;
+            }
             if matches!(near.kind, Kind::Solid | Kind::OneWay { solid: true }) {
                 let bodies = near.proxies.map(|proxy| contacts.body_of(proxy));
                 links.push(bodies);
+                *watched |= near.touch.restitution > 0.0;
                 solid.push(place as u32);
                 bodies.iter().for_each(|i| moved[*i as usize] = masses[*i as usize].is_free());
             }
@@ -72,7 +88,7 @@ impl World {
         for k in 0..self.scratch.contacts.islands.len() {
             self.gather(k, span);
             let outcome = self.step_group(span)?;
-            self.scatter(outcome);
+            self.scatter(outcome, span);
         }
         Ok(())
     }
@@ -82,7 +98,7 @@ impl World {
         let Self { state, scratch, .. } = self;
         let State { bodies, settings, contacts, .. } = state;
         let steady = &scratch.steady;
-        let ContactScratch { islands, links, solid, group, slots, mark, .. } =
+        let ContactScratch { islands, links, solid, group, slots, mark, answers, .. } =
             &mut scratch.contacts;
         group.clear();
         *mark = mark.wrapping_add(1);
@@ -97,32 +113,45 @@ impl World {
                     *entry = (*mark, group.bodies.len() as u32);
                     let steady = steady.get(body as usize).copied().unwrap_or(Wrench::ZERO);
                     add_body(group, bodies, body, (settings.gravity, steady));
+                    group.reach.push(contacts.covered[body as usize]);
                 }
                 entry.1
             });
             let patch = &contacts.patches[place as usize];
             let near = &contacts.near[patch.near as usize];
+            let touch = answers.get(place as usize).map_or(&near.touch, |answer| &answer.touch);
             let [i, j] = pair.map(|body| body as usize);
             let apart = bodies.poses[j].position - bodies.poses[i].position;
             let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
             let width = x.width.min(y.width);
-            let swift = is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
-            group.driven |= near.touch.tangent_speed != 0.0;
-            let block = Block::new(slots, &patch.manifold, &near.touch, &patch.memory);
+            let swift = contacts.spread > FAR * width
+                || is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
+            group.driven |= touch.tangent_speed != 0.0;
+            let block = Block::new(slots, &patch.manifold, touch, &patch.memory);
             group.add_contact(
                 block,
                 Link {
                     manifold: patch.manifold,
                     apart,
-                    restitution: near.touch.restitution,
+                    restitution: touch.restitution,
                     width,
                     place,
                     curvature: [0.0; 2],
+                    turning: 0.0,
+                    tangent_speed: touch.tangent_speed,
+                    passes: [false; 2],
                     resting: [0.0; 2],
-                    watched: near.touch.restitution > 0.0 || swift,
+                    watched: match (swift, touch.restitution > 0.0) {
+                        (true, _) => Watched::Swift,
+                        (false, true) => Watched::Bounces,
+                        (false, false) => Watched::No,
+                    },
+                    found: patch.manifold,
+                    met: false,
+                    apart_now: false,
                     beside: [false; 2],
-                    impact: 0.0,
-                    approach: 0.0,
+                    hit: Hit::default(),
+                    passed: 0.0,
                 },
             );
         }
@@ -135,15 +164,18 @@ impl World {
             sweeps: state.settings.sweeps,
         };
         let resistance = plan.as_ref().is_some_and(|plan| plan.resistance);
-        let mut around = Still { bodies: &state.bodies, air: state.settings.air, resistance };
+        let (bodies, contacts) = (&state.bodies, &state.contacts);
+        let mut around = Still { bodies, contacts, air: state.settings.air, resistance };
         contact_step::run(&mut scratch.contacts.group, span, settings, &mut around)
     }
 
     /// Brings the group's motion and impulses back to the columns.
-    fn scatter(&mut self, outcome: Outcome) {
-        let Self { state, scratch, report, .. } = self;
+    fn scatter(&mut self, outcome: Outcome, span: Span) {
+        let Self { state, scratch, report, events, .. } = self;
         let State { bodies, contacts, ledger, .. } = state;
         let group = &scratch.contacts.group;
+        // Before the bodies move: hits are told from where they were.
+        contacts.book_hits(bodies, group, span, &mut events.hit);
         for (slot, body) in group.bodies.iter().enumerate() {
             let (i, velocity, place) =
                 (*body as usize, &group.velocities[slot], &group.places[slot]);
@@ -162,6 +194,7 @@ impl World {
             contacts.patches[link.place as usize].memory = block.memory();
         }
         *ledger += outcome.ledger;
+        scratch.contacts.thrown = scratch.contacts.thrown.max(outcome.thrown);
         report.sweeps += outcome.sweeps;
         report.impacts += outcome.impacts;
         report.residual = report.residual.max(outcome.residual);
@@ -177,6 +210,7 @@ fn add_body(group: &mut Group, bodies: &Bodies, body: u32, (gravity, steady): (V
     let fixed = velocity.is_fixed();
     group.driven |= fixed && velocity.twist != Twist::ZERO;
     group.bodies.push(body);
+    group.angles.push(bodies.poses[i].angle);
     group.velocities.push(velocity);
     let acceleration = if fixed { Twist::ZERO } else { acceleration };
     group.places.push(Place::start(&bodies.poses[i], acceleration));
@@ -194,7 +228,6 @@ fn is_swift(
     [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
     (width, h): (Real, Real),
 ) -> bool {
-    const FAR: Real = 0.25;
     let [a, b] = [&bodies.twists[i], &bodies.twists[j]];
     let turn = a.angular.abs() * reach_i + b.angular.abs() * reach_j;
     let way = (b.linear - a.linear).norm() + turn;
@@ -204,6 +237,7 @@ fn is_swift(
 /// Surroundings whose forces stay the same over a span.
 struct Still<'a> {
     bodies: &'a Bodies,
+    contacts: &'a Contacts,
     air: Air,
     resistance: bool,
 }
@@ -233,5 +267,15 @@ impl Surroundings for Still<'_> {
             dissipated += before - mass.kinetic_energy(&velocity.twist);
         }
         Ok(dissipated)
+    }
+
+    fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)> {
+        let near = &self.contacts.near[self.contacts.patches[link.place as usize].near as usize];
+        let [a, b] = near.proxies.map(|p| &self.contacts.entries[p.0 as usize].collider.geometry);
+        let hit = first_impact((a, &ways[0]), (b, &ways[1]), target)?;
+        let [frame_a, frame_b] = [0, 1].map(|k| Frame::of(&ways[k].at(hit.fraction)));
+        let mut found = Vec::new();
+        collide(a, b, &frame_b.seen_from(&frame_a), 2.0 * target, &mut found);
+        found.first().map(|manifold| (hit.fraction, *manifold))
     }
 }

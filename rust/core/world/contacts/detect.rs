@@ -1,24 +1,32 @@
 //! The stage that finds what touches or may touch during the step.
 
+use super::hooks::{ContactHooks, allowed};
 use super::near::Kind;
-use super::{Contacts, Near, Patch, margin, swept};
+use super::view::place_of;
+use super::{Contacts, FAR, Near, Patch, margin, swept};
 use crate::body::{Bodies, Mixing, Role};
-use crate::collision::{Frame, Manifold, ProxyId, collide};
-use crate::constraints::contact::Touch;
+use crate::collision::{Collider, Frame, Manifold, ProxyId, collide};
+use crate::constraints::contact::{Touch, moved};
+use crate::error::Result;
 use crate::math::{Real, Vec2};
 use crate::world::World;
 
 impl World {
-    /// Broad phase, then narrow phase.
-    pub(in crate::world) fn detect(&mut self, dt: Real) {
-        let Self { state, plan, scratch, .. } = self;
-        let Some(plan) = plan else { return };
+    /// Broad phase, then narrow phase. Any body may be thrown as far as `spread` (m).
+    ///
+    /// # Errors
+    /// What a hook reports.
+    pub(in crate::world) fn detect(&mut self, dt: Real, spread: Real) -> Result<()> {
+        let Self { state, plan, scratch, hooks, .. } = self;
+        let Some(plan) = plan else { return Ok(()) };
         let (contacts, bodies, settings) = (&mut state.contacts, &state.bodies, &state.settings);
+        contacts.spread = spread;
         let step = Step { dt, gravity: settings.gravity };
         contacts.follow(bodies, &plan.colliding, &step);
-        contacts.pair_up(bodies, &settings.mixing);
+        contacts.pair_up(bodies, &settings.mixing, hooks.as_deref())?;
         contacts.order(bodies, settings.gravity);
         contacts.find_manifolds(bodies, &step, &mut scratch.contacts.found);
+        self.ask_before_solving()
     }
 }
 
@@ -41,22 +49,36 @@ impl Contacts {
     /// Moves the boxes after the bodies.
     fn follow(&mut self, bodies: &Bodies, moving: &[u32], step: &Step) {
         let moved = std::mem::take(&mut self.moved);
+        self.far = false;
         for body in moved.iter().chain(moving) {
             let i = *body as usize;
             let frame = Frame::of(&bodies.poses[i]);
             self.frames[i] = frame;
             let motion = step.motion(bodies, i);
+            let mut width = Real::INFINITY;
             for proxy in &self.of_body[i] {
                 let collider = &self.entries[proxy.0 as usize].collider;
-                self.broad.update(*proxy, &swept(collider, &frame, motion), margin(collider));
+                self.broad.update(
+                    *proxy,
+                    &swept(collider, &frame, motion, self.spread),
+                    margin(collider),
+                );
+                width = width.min(collider.width);
             }
+            self.covered[i] = motion.0.norm().max(self.spread) + 0.5 * width;
+            self.far |= self.spread > 0.0 || motion.0.norm() > FAR * width || motion.1 > FAR;
         }
         self.moved = moved;
         self.moved.clear();
     }
 
     /// Takes in pairs whose boxes have met, and drops those whose boxes have parted.
-    fn pair_up(&mut self, bodies: &Bodies, mixing: &Mixing) {
+    fn pair_up(
+        &mut self,
+        bodies: &Bodies,
+        mixing: &Mixing,
+        hooks: Option<&dyn ContactHooks>,
+    ) -> Result<()> {
         let Self { broad, entries, near, map, .. } = self;
         let allow = |a: ProxyId, b: ProxyId| {
             let [x, y] = [a, b].map(|proxy| &entries[proxy.0 as usize]);
@@ -64,13 +86,21 @@ impl Contacts {
             if i == j || !x.filter.allows(&y.filter) || map.contains(a, b) {
                 return false;
             }
-            let sensor = x.role == Role::Sensor || y.role == Role::Sensor;
-            sensor || bodies.masses[i].is_free() || bodies.masses[j].is_free()
+            let sensors = [x, y].map(|entry| entry.role == Role::Sensor);
+            if sensors == [true; 2] {
+                return false;
+            }
+            sensors != [false; 2] || bodies.masses[i].is_free() || bodies.masses[j].is_free()
         };
         let mut new = Vec::new();
         broad.find_pairs(allow, |a, b| new.push([a, b]));
         for proxies in new {
             let [x, y] = proxies.map(|proxy| &entries[proxy.0 as usize]);
+            if let Some(hooks) = hooks
+                && !allowed(hooks, bodies, [&x.collider, &y.collider])?
+            {
+                continue;
+            }
             let kind = match (&x.role, &y.role) {
                 (Role::Sensor, _) | (_, Role::Sensor) => Kind::Sensor,
                 (Role::OneWay(_), _) | (_, Role::OneWay(_)) => Kind::OneWay { solid: false },
@@ -88,11 +118,14 @@ impl Contacts {
                 count: 0,
             });
         }
-        self.drop_near(|pair, contacts| !contacts.broad.overlaps(pair.proxies[0], pair.proxies[1]));
+        let parted =
+            |pair: &Near, own: &Self| !own.broad.overlaps(pair.proxies[0], pair.proxies[1]);
+        self.drop_near(bodies.handles(), parted);
+        Ok(())
     }
 
     /// Orders the pairs from above down. Sweeps that follow the load settle several times sooner than those in any
-    /// order, and the order of creation plays no part.
+    /// order. Pairs of one height go by their numbers, whatever else is in the world.
     fn order(&mut self, bodies: &Bodies, gravity: Vec2) {
         let up = if gravity == Vec2::zeros() { Vec2::x() } else { -gravity.normalize() };
         let Self { near, entries, .. } = self;
@@ -108,23 +141,32 @@ impl Contacts {
             };
         }
         // Nearly sorted since the last step: one pass.
-        near.sort_by(|a, b| b.height.total_cmp(&a.height));
+        near.sort_by(|a, b| b.height.total_cmp(&a.height).then(a.proxies.cmp(&b.proxies)));
     }
 
     /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
     fn find_manifolds(&mut self, bodies: &Bodies, step: &Step, found: &mut Vec<Manifold>) {
+        let spread = 2.0 * self.spread;
         let Self { entries, near, patches, before, frames, .. } = self;
         std::mem::swap(patches, before);
         patches.clear();
         for (place, pair) in near.iter_mut().enumerate() {
             let old = &before[pair.first as usize..(pair.first + pair.count) as usize];
             (pair.first, pair.count) = (patches.len() as u32, 0);
+            if pair.kind == Kind::Sensor {
+                continue;
+            }
             let [x, y] = pair.proxies.map(|proxy| &entries[proxy.0 as usize].collider);
             let [i, j] = [x.body as usize, y.body as usize];
-            let reach = way_to_meet(bodies, step, [(i, x.reach), (j, y.reach)]);
-            let margin = 0.02 * x.width.min(y.width) + reach;
+            let margin = 0.02 * x.width.min(y.width) + way_to_meet(bodies, step, [x, y]) + spread;
             found.clear();
             collide(&x.geometry, &y.geometry, &frames[j].seen_from(&frames[i]), margin, found);
+            if let Kind::OneWay { solid } = &mut pair.kind {
+                let roles = pair.proxies.map(|proxy| &entries[proxy.0 as usize].role);
+                let slop = ONE_WAY_SLOP * x.width.min(y.width);
+                *solid = (*solid && pair.touching)
+                    || comes_from_its_side(found, roles, [&frames[i], &frames[j]], slop);
+            }
             for manifold in &*found {
                 patches.push(Patch::remembering(place as u32, *manifold, old));
             }
@@ -133,18 +175,45 @@ impl Contacts {
     }
 }
 
-/// How far two bodies can come together in a step (m).
-fn way_to_meet(
-    bodies: &Bodies,
-    step: &Step,
-    [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
-) -> Real {
-    let ((way_i, turn_i), (way_j, turn_j)) = (step.motion(bodies, i), step.motion(bodies, j));
-    (way_j - way_i).norm() + turn_i.min(2.0) * reach_i + turn_j.min(2.0) * reach_j
+/// Overlap, as a part of the smaller width, with which a shape still counts as wholly on one side of a platform.
+const ONE_WAY_SLOP: Real = 1e-3;
+
+/// Whether a shape is wholly on that side of a platform from which the platform is solid: the surfaces do not overlap
+/// by more than `slop`, and the normal is within 60° of the side.
+fn comes_from_its_side(
+    found: &[Manifold],
+    roles: [&Role; 2],
+    [a, b]: [&Frame; 2],
+    slop: Real,
+) -> bool {
+    let apart = b.position - a.position;
+    let places = [place_of(a), place_of(b)];
+    let stands = |manifold: &Manifold| {
+        let at = moved(manifold, apart, [&places[0], &places[1]]);
+        // From the platform to the other.
+        let faces = [(roles[0], a, at.normal), (roles[1], b, -at.normal)];
+        let faces_side = faces.iter().all(|(role, frame, normal)| match role {
+            Role::OneWay(side) => frame.rot.apply(*side).dot(normal) >= 0.5 * side.norm(),
+            _ => true,
+        });
+        faces_side && at.gap[..manifold.count].iter().all(|gap| *gap >= -slop)
+    };
+    !found.is_empty() && found.iter().all(stands)
+}
+
+/// How far two colliders can come together in a step (m). One that moves far may bounce, so that it counts by itself;
+/// slower ones count by how they move against one another.
+fn way_to_meet(bodies: &Bodies, step: &Step, pair: [&Collider; 2]) -> Real {
+    let motions = pair.map(|collider| step.motion(bodies, collider.body as usize));
+    let turns: Real = (0..2).map(|k| motions[k].1.min(2.0) * pair[k].reach).sum();
+    let lengths = motions.map(|(way, _)| way.norm());
+    let far = (0..2).any(|k| lengths[k] > FAR * pair[k].width);
+    let ways = if far { lengths[0] + lengths[1] } else { (motions[1].0 - motions[0].0).norm() };
+    ways + turns
 }
 
 /// What the surfaces of two colliders make of their values.
-fn touch(bodies: &Bodies, mixing: &Mixing, colliders: [&crate::collision::Collider; 2]) -> Touch {
+fn touch(bodies: &Bodies, mixing: &Mixing, colliders: [&Collider; 2]) -> Touch {
     let [a, b] = colliders.map(|collider| {
         let def = &bodies.infos[collider.body as usize].def;
         def.surface_of(&def.shapes[collider.part as usize])

@@ -5,17 +5,28 @@ mod backup;
 #[cfg(test)]
 mod coulomb;
 mod detect;
+mod events;
+mod hits;
+mod hooks;
 mod near;
+mod strays;
+mod touching;
+mod view;
 
 pub(super) use advance::ContactScratch;
 pub(super) use backup::ContactBackup;
+pub use events::{ContactEvent, Events};
+pub use hooks::{ContactHooks, PreSolve, ShapeView};
 pub(super) use near::{Near, Patch};
+pub(super) use strays::Strays;
+pub(super) use touching::Change;
+pub use view::Contact;
 
 use serde::{Deserialize, Serialize};
 
 use crate::body::{Bodies, Filter, Role};
 use crate::collision::{BroadPhase, Collider, Frame, PairMap, ProxyId, colliders};
-use crate::math::{Real, Rot, vec2};
+use crate::math::{Real, Rot, Vec2, vec2};
 use crate::shapes::Aabb;
 
 /// One collider of a body, and what its part says of it.
@@ -40,6 +51,8 @@ pub(super) struct Contacts {
     pub patches: Vec<Patch>,
     /// Length (s) of the substep that the remembered impulses are of.
     pub substep: Real,
+    /// Shapes that touch.
+    pub touching: touching::Touching,
     #[serde(skip)]
     map: PairMap,
     #[serde(skip)]
@@ -47,6 +60,16 @@ pub(super) struct Contacts {
     /// Frames of the bodies' centres of mass, in body order.
     #[serde(skip)]
     frames: Vec<Frame>,
+    /// How far any body may be thrown in the step (m), where one was thrown before; else 0.
+    #[serde(skip)]
+    pub spread: Real,
+    /// Some body moves far in the step.
+    #[serde(skip)]
+    pub far: bool,
+    /// How far from where it is each body can get before what it can meet must be looked for anew (m), in body
+    /// order.
+    #[serde(skip)]
+    covered: Vec<Real>,
     /// Bodies whose place was set since the last detection.
     #[serde(skip)]
     moved: Vec<u32>,
@@ -71,20 +94,22 @@ impl Contacts {
     pub fn add(&mut self, bodies: &Bodies) {
         self.of_body.push(Vec::new());
         self.frames.push(ORIGIN);
+        self.covered.push(0.0);
         self.insert(bodies, bodies.len() - 1);
     }
 
     /// Takes in a body that was edited.
     pub fn replace(&mut self, bodies: &Bodies, body: usize) {
-        self.take_out(body);
+        self.take_out(bodies, body);
         self.insert(bodies, body);
     }
 
-    /// Forgets a body; the last one takes its place.
-    pub fn remove(&mut self, body: usize) {
-        self.take_out(body);
+    /// Forgets a body that is still in the columns; the last one takes its place.
+    pub fn remove(&mut self, bodies: &Bodies, body: usize) {
+        self.take_out(bodies, body);
         self.of_body.swap_remove(body);
         self.frames.swap_remove(body);
+        self.covered.swap_remove(body);
         let last = self.of_body.len() as u32;
         self.moved.retain(|moved| *moved as usize != body);
         self.moved
@@ -100,8 +125,14 @@ impl Contacts {
 
     /// Tells that the place of a body was set.
     pub fn touch(&mut self, body: usize) {
-        if self.has_shapes(body) {
-            self.moved.push(body as u32);
+        if !self.has_shapes(body) {
+            return;
+        }
+        self.moved.push(body as u32);
+        // Worlds that are set and never stepped must not gather names without end.
+        if self.moved.len() > 2 * self.of_body.len() {
+            self.moved.sort_unstable();
+            self.moved.dedup();
         }
     }
 
@@ -114,10 +145,12 @@ impl Contacts {
     }
 
     /// Derives what is not stored.
-    pub fn rebuild(&mut self) {
+    pub fn rebuild(&mut self, bodies: &Bodies) {
         self.map_pairs();
         self.frames.resize(self.of_body.len(), ORIGIN);
+        self.covered.resize(self.of_body.len(), 0.0);
         self.touch_all();
+        self.retell(bodies.handles());
     }
 
     /// Derives the map of pairs.
@@ -147,7 +180,7 @@ impl Contacts {
         }
     }
 
-    fn take_out(&mut self, body: usize) {
+    fn take_out(&mut self, bodies: &Bodies, body: usize) {
         let proxies = std::mem::take(&mut self.of_body[body]);
         if proxies.is_empty() {
             return;
@@ -155,7 +188,8 @@ impl Contacts {
         for proxy in &proxies {
             self.broad.remove(*proxy);
         }
-        self.drop_near(|near, _| near.proxies.iter().any(|proxy| proxies.contains(proxy)));
+        let handles = bodies.handles();
+        self.drop_near(handles, |near, _| near.proxies.iter().any(|proxy| proxies.contains(proxy)));
     }
 
     fn body_of(&self, proxy: ProxyId) -> u32 {
@@ -168,8 +202,16 @@ fn margin(collider: &Collider) -> Real {
     0.1 * collider.width
 }
 
-/// The box of a collider on its way through a step: moved by `way`, and turned by any of the angles up to `turn`.
-fn swept(collider: &Collider, frame: &Frame, (way, turn): (crate::math::Vec2, Real)) -> Aabb {
+/// A motion beyond this part of a collider's width is a far one: the collider may bounce and end up anywhere around.
+const FAR: Real = 0.25;
+
+/// The box of a collider on its way through a step: moved by `way`, or as far in any direction, and turned by any of
+/// the angles up to `turn`.
+fn swept(collider: &Collider, frame: &Frame, (way, turn): (Vec2, Real), spread: Real) -> Aabb {
     let here = collider.geometry.bounds_at(frame).grown(turn.min(2.0) * collider.reach);
+    let length = way.norm().max(spread);
+    if length > FAR * collider.width {
+        return here.grown(length);
+    }
     here.merged(&Aabb { min: here.min + way, max: here.max + way })
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Contacts;
+use crate::body::BodyHandle;
 use crate::collision::{Manifold, ProxyId};
 use crate::constraints::contact::{Memory, Touch};
 use crate::math::Real;
@@ -68,11 +69,16 @@ impl Patch {
 
 impl Contacts {
     /// Forgets pairs.
-    pub(super) fn drop_near(&mut self, mut gone: impl FnMut(&Near, &Self) -> bool) {
+    pub(super) fn drop_near(
+        &mut self,
+        handles: &[BodyHandle],
+        mut gone: impl FnMut(&Near, &Self) -> bool,
+    ) {
         let mut near = std::mem::take(&mut self.near);
         near.retain(|pair| {
             let gone = gone(pair, self);
             if gone {
+                self.forget_touch(pair, handles);
                 self.map.remove(pair.proxies[0], pair.proxies[1]);
             }
             !gone

@@ -1,4 +1,4 @@
-//! What a moving box meets in a tree.
+//! What a moving box meets in a tree, and what is nearest to a box: branch and bound.
 
 use super::{NONE, Tree};
 use crate::math::{Real, Vec2};
@@ -10,12 +10,34 @@ impl Tree {
     pub fn cast(
         &self,
         cast: &BoxCast,
+        limit: Real,
+        found: &mut dyn FnMut(u32, Real) -> Real,
+    ) -> Real {
+        self.search(|aabb| cast.entry(aabb), limit, found)
+    }
+
+    /// The same with the leaves whose boxes are within `limit` (m) of a box, and with distances in place of
+    /// fractions.
+    pub fn nearest(
+        &self,
+        aabb: &Aabb,
+        limit: Real,
+        found: &mut dyn FnMut(u32, Real) -> Real,
+    ) -> Real {
+        self.search(|other| Some(other.distance(aabb)), limit, found)
+    }
+
+    /// Goes through the leaves of which `entry` says a number up to the limit, smaller ones first as far as the
+    /// boxes above tell.
+    fn search(
+        &self,
+        entry: impl Fn(&Aabb) -> Option<Real>,
         mut limit: Real,
         found: &mut dyn FnMut(u32, Real) -> Real,
     ) -> Real {
         let mut stack: Vec<(u32, Real)> = Vec::new();
         let enter = |index: u32, limit: Real| {
-            let entry = cast.entry(&self.nodes[index as usize].aabb)?;
+            let entry = entry(&self.nodes[index as usize].aabb)?;
             (entry <= limit).then_some((index, entry))
         };
         if self.root != NONE {

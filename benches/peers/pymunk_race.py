@@ -1,0 +1,119 @@
+"""Pymunk's side of the race: reads orders from the runner, a line of JSON each, and answers so.
+
+The orders: {"start": scene} makes the world of a scene; {"advance": [first, last]} takes the steps
+from the first to before the last and answers with their CPU time in seconds; "state" answers with
+all bodies, "version" with pymunk's. Not for use by hand: the runner starts it, see `make peers`.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+import time
+from typing import Any
+
+import pymunk
+
+KINDS = {
+    "static": pymunk.Body.STATIC,
+    "kinematic": pymunk.Body.KINEMATIC,
+    "dynamic": pymunk.Body.DYNAMIC,
+}
+TIME_TO_SLEEP = 0.5  # s, as the other engines
+
+
+def make_shape(body: pymunk.Body, declared: dict[str, Any]) -> pymunk.Shape:
+    """One convex shape of a body, without a rounding radius."""
+    [(kind, given)] = declared.items()
+    if kind == "circle":
+        return pymunk.Circle(body, given["radius"], tuple(given["center"]))
+    if kind == "segment":
+        return pymunk.Segment(body, tuple(given["a"]), tuple(given["b"]), 0.0)
+    if kind == "polygon":
+        return pymunk.Poly(body, [tuple(corner) for corner in given["vertices"]])
+    (x, y), (w, h) = given["center"], given["half"]
+    return pymunk.Poly(body, [(x - w, y - h), (x + w, y - h), (x + w, y + h), (x - w, y + h)])
+
+
+class Race:
+    """A scene, and its world."""
+
+    def __init__(self, scene: dict[str, Any]) -> None:
+        """Makes the world; pymunk's ten iterations and other defaults stay."""
+        self.dt: float = scene["dt"]
+        self.swing: dict[str, Any] | None = scene["swing"]
+        self.space = pymunk.Space()
+        self.space.gravity = tuple(scene["gravity"])
+        if scene["sleeping"]:
+            self.space.sleep_time_threshold = TIME_TO_SLEEP
+        self.bodies = [self.make_body(declared, scene) for declared in scene["bodies"]]
+
+    def make_body(self, declared: dict[str, Any], scene: dict[str, Any]) -> pymunk.Body:
+        """One body with its shapes; mass, centre and moment follow from the density."""
+        body = pymunk.Body(body_type=KINDS[declared["kind"]])
+        shapes = [make_shape(body, shape) for shape in declared["shapes"]]
+        for shape in shapes:
+            if declared["kind"] == "dynamic":
+                shape.density = declared["density"]
+            # Those of two shapes are multiplied.
+            shape.friction = math.sqrt(scene["friction"])
+            shape.elasticity = math.sqrt(scene["restitution"])
+        body.position = tuple(declared["position"])
+        body.angle = declared["angle"]
+        self.space.add(body, *shapes)
+        if declared["kind"] != "static":
+            body.velocity = tuple(declared["velocity"])
+            body.angular_velocity = declared["angular_velocity"]
+        if declared["asleep"] and scene["sleeping"]:
+            body.sleep()
+        return body
+
+    def advance(self, first: int, last: int) -> float:
+        """Takes steps and gives their CPU time (s)."""
+        start = time.process_time()
+        for step in range(first, last):
+            if self.swing is not None:
+                self.steer(self.swing, step)
+            self.space.step(self.dt)
+        return time.process_time() - start
+
+    def steer(self, swing: dict[str, Any], step: int) -> None:
+        """Sets the velocity of what swings to that of this step."""
+        now, then = (math.sin(swing["rate"] * self.dt * k) for k in (step, step + 1))
+        x, y = swing["amplitude"]
+        speed = (then - now) / self.dt
+        self.bodies[swing["body"]].velocity = (x * speed, y * speed)
+
+    def state(self) -> list[dict[str, Any]]:
+        """All bodies, in the scene's order."""
+        return [
+            {
+                "position": tuple(body.position),
+                "angle": body.angle,
+                "velocity": tuple(body.velocity),
+                "angular_velocity": body.angular_velocity,
+            }
+            for body in self.bodies
+        ]
+
+
+def main() -> None:
+    """Answers until the orders end."""
+    race: Race | None = None
+    for line in sys.stdin:
+        order = json.loads(line)
+        answer: object = None
+        if order == "version":
+            answer = pymunk.version
+        elif race is not None and order == "state":
+            answer = race.state()
+        elif race is not None and "advance" in order:
+            answer = race.advance(*order["advance"])
+        else:
+            race = Race(order["start"])
+        print(json.dumps(answer), flush=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,108 @@
+//! Box2D 3, through its safe bindings.
+
+use boxdd::shapes::{circle, segment};
+use boxdd::{BodyId, BodyType, Foundation, Polygon, ShapeDef, SurfaceMaterial, Transform, World};
+use culbuto::body::BodyKind;
+use culbuto::math::{Real, Vec2, vec2};
+
+use super::{Engine, State};
+use crate::Result;
+use crate::scene::{Body, Scene, Shape};
+
+pub struct Box2d {
+    world: World,
+    bodies: Vec<BodyId>,
+}
+
+/// It computes in single precision.
+fn number(x: Real) -> f32 {
+    x as f32
+}
+
+fn pair(v: Vec2) -> [f32; 2] {
+    [number(v.x), number(v.y)]
+}
+
+fn add_shape(body: &mut boxdd::Body<'_>, def: &ShapeDef, declared: &Shape) -> Result<()> {
+    match *declared {
+        Shape::Circle { center, radius } => {
+            body.create_circle(def, &circle(pair(center), number(radius))?)?
+        }
+        Shape::Box { center, half } => {
+            let place = Transform::from_pos_angle(pair(center), 0.0)?;
+            let polygon = Polygon::offset_box_polygon(number(half.x), number(half.y), place)?;
+            body.create_polygon(def, &polygon)?
+        }
+        Shape::Polygon { ref vertices } => {
+            let polygon = Polygon::from_points(vertices.iter().copied().map(pair), 0.0)?;
+            body.create_polygon(def, &polygon)?
+        }
+        Shape::Segment { a, b } => body.create_segment(def, &segment(pair(a), pair(b))?)?,
+    };
+    Ok(())
+}
+
+fn add_body(world: &mut World, scene: &Scene, declared: &Body) -> Result<BodyId> {
+    let def = world
+        .body_builder()
+        .body_type(match declared.kind {
+            BodyKind::Static => BodyType::Static,
+            BodyKind::Kinematic => BodyType::Kinematic,
+            BodyKind::Dynamic => BodyType::Dynamic,
+        })
+        .position(pair(declared.position))
+        .angle(number(declared.angle))
+        .linear_velocity(pair(declared.velocity))
+        .angular_velocity(number(declared.angular_velocity))
+        .awake(!(declared.asleep && scene.sleeping))
+        .build()?;
+    let material = SurfaceMaterial::new()
+        .with_friction(number(scene.friction))?
+        .with_restitution(number(scene.restitution))?;
+    let shape = ShapeDef::builder().material(material).density(number(declared.density)).build()?;
+    let id = world.create_body(def)?;
+    let mut body = world.body(id)?;
+    declared.shapes.iter().try_for_each(|part| add_shape(&mut body, &shape, part))?;
+    Ok(id)
+}
+
+impl Engine for Box2d {
+    fn build(scene: &Scene) -> Result<Self> {
+        let foundation = match Foundation::get() {
+            Some(foundation) => foundation,
+            None => Foundation::initialize_default()?,
+        };
+        let builder = foundation.world_builder();
+        let def = builder.gravity(pair(scene.gravity)).enable_sleep(scene.sleeping).build()?;
+        let mut world = foundation.create_world(def)?;
+        let bodies = scene.bodies.iter().map(|body| add_body(&mut world, scene, body));
+        let bodies = bodies.collect::<Result<_>>()?;
+        Ok(Self { world, bodies })
+    }
+
+    fn steer(&mut self, body: usize, velocity: Vec2) -> Result<()> {
+        let body = self.bodies[body];
+        Ok(self.world.body(body)?.set_linear_velocity(pair(velocity))?)
+    }
+
+    fn step(&mut self, scene: &Scene) -> Result<()> {
+        let substeps = i32::try_from(scene.substeps)?;
+        let done = self.world.step(number(scene.dt), substeps)?;
+        done.post_step_error().map_or(Ok(()), |error| Err(error.into()))
+    }
+
+    fn state(&mut self) -> Result<Vec<State>> {
+        let world = &mut self.world;
+        let state = |&id| {
+            let body = world.body(id)?;
+            let (place, velocity) = (body.position()?, body.linear_velocity()?);
+            Ok(State {
+                position: vec2(place.x.into(), place.y.into()),
+                angle: body.rotation()?.angle().into(),
+                velocity: vec2(velocity.x.into(), velocity.y.into()),
+                angular_velocity: body.angular_velocity()?.into(),
+            })
+        };
+        self.bodies.iter().map(state).collect()
+    }
+}

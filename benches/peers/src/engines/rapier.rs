@@ -1,0 +1,112 @@
+//! Rapier; which of its crates, the parent says.
+
+use culbuto::body::BodyKind;
+use culbuto::math::{Real, Vec2, vec2};
+
+use super::engine::math::Real as Number;
+use super::engine::prelude::{
+    ColliderBuilder, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector,
+};
+use crate::Result;
+use crate::engines::{Engine, State};
+use crate::scene::{Body, Scene, Shape};
+
+pub struct Rapier {
+    world: PhysicsWorld,
+    handles: Vec<RigidBodyHandle>,
+}
+
+// In one of the two crates their numbers are ours already.
+#[allow(clippy::unnecessary_cast)]
+fn number(x: Real) -> Number {
+    x as Number
+}
+
+#[allow(clippy::useless_conversion)]
+fn real(x: Number) -> Real {
+    x.into()
+}
+
+fn vector(v: Vec2) -> Vector {
+    Vector::new(number(v.x), number(v.y))
+}
+
+fn shape(declared: &Shape) -> Result<ColliderBuilder> {
+    Ok(match *declared {
+        Shape::Circle { center, radius } => {
+            ColliderBuilder::ball(number(radius)).translation(vector(center))
+        }
+        Shape::Box { center, half } => {
+            ColliderBuilder::cuboid(number(half.x), number(half.y)).translation(vector(center))
+        }
+        Shape::Polygon { ref vertices } => {
+            ColliderBuilder::convex_polyline(vertices.iter().copied().map(vector).collect())
+                .ok_or("not a convex polygon")?
+        }
+        Shape::Segment { a, b } => ColliderBuilder::segment(vector(a), vector(b)),
+    })
+}
+
+fn body(body: &Body, sleeping: bool) -> RigidBody {
+    let builder = match body.kind {
+        BodyKind::Static => RigidBodyBuilder::fixed(),
+        BodyKind::Kinematic => RigidBodyBuilder::kinematic_velocity_based(),
+        BodyKind::Dynamic => RigidBodyBuilder::dynamic(),
+    };
+    builder
+        .translation(vector(body.position))
+        .rotation(number(body.angle))
+        .linvel(vector(body.velocity))
+        .angvel(number(body.angular_velocity))
+        .allow_fast_rotation(true) // else it caps the angular velocity
+        .can_sleep(sleeping)
+        .sleeping(sleeping && body.asleep)
+        .build()
+}
+
+impl Engine for Rapier {
+    fn build(scene: &Scene) -> Result<Self> {
+        let mut world = PhysicsWorld { gravity: vector(scene.gravity), ..PhysicsWorld::default() };
+        world.integration_parameters.dt = number(scene.dt);
+        // Contacts of pairs that hardly moved are used again, as in Box2D: the default of both.
+        world.integration_parameters.contact_recycling = true;
+        world.integration_parameters.num_solver_iterations = scene.substeps as usize;
+        let mut handles = Vec::with_capacity(scene.bodies.len());
+        for declared in &scene.bodies {
+            let handle = world.insert_body(body(declared, scene.sleeping));
+            for part in &declared.shapes {
+                let collider = shape(part)?
+                    .density(number(declared.density))
+                    .friction(number(scene.friction))
+                    .restitution(number(scene.restitution));
+                world.insert_collider(collider, Some(handle));
+            }
+            handles.push(handle);
+        }
+        Ok(Self { world, handles })
+    }
+
+    fn steer(&mut self, body: usize, velocity: Vec2) -> Result<()> {
+        self.world.bodies[self.handles[body]].set_linvel(vector(velocity), true);
+        Ok(())
+    }
+
+    fn step(&mut self, _: &Scene) -> Result<()> {
+        self.world.step();
+        Ok(())
+    }
+
+    fn state(&mut self) -> Result<Vec<State>> {
+        let state = |&handle: &RigidBodyHandle| {
+            let body: &RigidBody = &self.world.bodies[handle];
+            let (place, velocity) = (body.translation(), body.linvel());
+            State {
+                position: vec2(real(place.x), real(place.y)),
+                angle: real(body.rotation().angle()),
+                velocity: vec2(real(velocity.x), real(velocity.y)),
+                angular_velocity: real(body.angvel()),
+            }
+        };
+        Ok(self.handles.iter().map(state).collect())
+    }
+}

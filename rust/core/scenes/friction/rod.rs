@@ -1,0 +1,141 @@
+//! Rods on a floor.
+
+use crate::body::{BodyDef, Surface};
+use crate::error::Result;
+use crate::math::{Pose, Real, atan2, sin_cos, vec2};
+use crate::scenes::stage::{DT, G, add_ground, at_fixed_step, ground, heavy, rough};
+use crate::scenes::{Answer, Judged, Motion, Scene};
+use crate::shapes::Shape;
+use crate::world::World;
+
+/// Adds a rod of 1 m that stands on the floor with its lower end, at an angle over the floor.
+fn rod(angle: Real, surface: &Surface, speed: Real) -> Result<World> {
+    let mut world = heavy()?;
+    add_ground(&mut world, 0.0, surface.clone())?;
+    let (sin, cos) = sin_cos(angle);
+    world.add_body(BodyDef {
+        position: vec2(0.5 * cos, 0.5 * sin),
+        angle,
+        velocity: vec2(speed, 0.0),
+        surface: surface.clone(),
+        ..BodyDef::new(Shape::segment(vec2(-0.5, 0.0), vec2(0.5, 0.0))?)
+    })?;
+    Ok(world)
+}
+
+/// Angle off the vertical of the falling rod at the start (rad).
+const LEAN: Real = 0.1;
+const UPRIGHT: Real = std::f64::consts::FRAC_PI_2;
+
+/// Angular acceleration on a smooth floor at an angle off the vertical: (J + ¼ sin²)ü = ½g sin − ¼ sin cos u̇².
+fn tilting(angle: Real, rate: Real) -> Real {
+    let (sin, cos) = sin_cos(angle);
+    sin * (0.5 * G - 0.25 * cos * rate * rate) / (1.0 / 12.0 + 0.25 * sin * sin)
+}
+
+/// Moves [angle, rate] on by t with 400 steps of the classical Runge–Kutta method: to 1e-13 over the fall.
+fn fall([mut angle, mut rate]: [Real; 2], t: Real) -> [Real; 2] {
+    const STEPS: u32 = 400;
+    let h = t / Real::from(STEPS);
+    for _ in 0..STEPS {
+        let [a1, b1] = [rate, tilting(angle, rate)];
+        let [a2, b2] = [rate + 0.5 * h * b1, tilting(angle + 0.5 * h * a1, rate + 0.5 * h * b1)];
+        let [a3, b3] = [rate + 0.5 * h * b2, tilting(angle + 0.5 * h * a2, rate + 0.5 * h * b2)];
+        let [a4, b4] = [rate + h * b3, tilting(angle + h * a3, rate + h * b3)];
+        angle += h / 6.0 * (a1 + 2.0 * (a2 + a3) + a4);
+        rate += h / 6.0 * (b1 + 2.0 * (b2 + b3) + b4);
+    }
+    [angle, rate]
+}
+
+/// Time from a state until the rod lies flat, and its rate then, by Newton's iteration.
+fn flat(state: [Real; 2]) -> [Real; 2] {
+    let mut time = (UPRIGHT - state[0]) / state[1];
+    let mut rate = state[1];
+    for _ in 0..20 {
+        let now = fall(state, time);
+        rate = now[1];
+        time += (UPRIGHT - now[0]) / rate;
+    }
+    [time, rate]
+}
+
+/// Steps before the rod lies flat.
+const STEPS: u32 = 35;
+
+/// When the rod lies flat, and its rate then, from where the engine has it in the last step before.
+fn end_of_fall() -> Result<[Real; 2]> {
+    let mut world = rod(UPRIGHT - LEAN, &rough(0.0), 0.0)?;
+    world.steps(DT, STEPS)?;
+    let (pose, twist) = (world.bodies().poses[1], world.bodies().twists[1]);
+    let [time, rate] = flat([UPRIGHT - pose.angle, -twist.angular]);
+    Ok([world.time() + time, rate])
+}
+
+pub static FALLING_ROD: Scene = Scene {
+    id: "F11",
+    name: "falling_rod",
+    title: "A rod falls on a smooth floor from 0.1 rad off the vertical",
+    about: "Its centre falls straight down; (1/12 + ¼ sin² u)ü = ½(g/L) sin u − ¼ sin u cos u·u̇². Flat at 0.585947472819 s with 5.41137437109 rad/s.",
+    answer: Answer::Motion(Motion {
+        build: || rod(UPRIGHT - LEAN, &rough(0.0), 0.0),
+        exact: |t| {
+            let [angle, _] = fall([LEAN, 0.0], t);
+            let center = vec2(0.5 * libm::sin(LEAN), 0.5 * libm::cos(angle));
+            vec![ground(0.0), Pose::new(center, UPRIGHT - angle)]
+        },
+        duration: DT * STEPS as Real,
+        dt: DT,
+        length: 1.0,
+        fixed: 1e-3,
+        toleranced: None,
+        judged: Judged::Contact { order: true },
+    }),
+    checks: &[
+        at_fixed_step("moment at which it lies flat, relative", 1e-3, || {
+            Ok((end_of_fall()?[0] / 0.585_947_472_819 - 1.0).abs())
+        }),
+        at_fixed_step("angular velocity then, relative", 1e-3, || {
+            Ok((end_of_fall()?[1] / 5.411_374_371_09 - 1.0).abs())
+        }),
+    ],
+};
+
+/// What comes of a rod that is pushed over the floor, its lower end ahead, at tan θ = 2.
+struct Pushed {
+    /// Largest gain of energy in a step, of the energy at the start.
+    gain: Real,
+    /// Deepest that an end went below the floor (m).
+    depth: Real,
+}
+
+fn pushed(friction: Real) -> Result<Pushed> {
+    let mut world = rod(atan2(2.0, 1.0), &rough(friction), -5.0)?;
+    let start = world.energy()?.total();
+    let (mut before, mut gain, mut depth) = (start, Real::NEG_INFINITY, Real::NEG_INFINITY);
+    for _ in 0..180 {
+        world.step(DT)?;
+        let (now, pose) = (world.energy()?.total(), world.bodies().poses[1]);
+        if !(now.is_finite() && pose.position.norm().is_finite()) {
+            return Ok(Pushed { gain: Real::INFINITY, depth: Real::INFINITY });
+        }
+        gain = gain.max((now - before) / start);
+        depth = depth.max(0.5 * libm::sin(pose.angle).abs() - pose.position.y);
+        before = now;
+    }
+    Ok(Pushed { gain, depth })
+}
+
+pub static PAINLEVE: Scene = Scene {
+    id: "F13",
+    name: "painleve",
+    title: "Painlevé’s rod, pushed over the floor at tan θ = 2",
+    about: "Rigid bodies with Coulomb’s friction have no solution without a jump where μ > (t + 4/t)/3, t = tan θ: not with μ = 1.2, but with 1.6 (Painlevé 1895; Génot and Brogliato 1999). Either way it must stay finite, gain no energy and stay above the floor.",
+    answer: Answer::Numbers(|| Ok(Vec::new())),
+    checks: &[
+        at_fixed_step("gain of energy in a step, μ = 1.2", 1e-12, || Ok(pushed(1.2)?.gain)),
+        at_fixed_step("gain of energy in a step, μ = 1.6", 1e-12, || Ok(pushed(1.6)?.gain)),
+        at_fixed_step("overlap, of the length, μ = 1.2", 1e-3, || Ok(pushed(1.2)?.depth)),
+        at_fixed_step("overlap, of the length, μ = 1.6", 1e-3, || Ok(pushed(1.6)?.depth)),
+    ],
+};
