@@ -6,7 +6,7 @@ use culbuto::shapes::Shape;
 use culbuto::{BodyDef, World};
 use proptest::prelude::*;
 
-use crate::common::{DT, Thrown, fewer, fixed, laws, rush, surface, weightless};
+use crate::common::{DT, Form, Thrown, fewer, fixed, laws, rush, surface, weightless};
 
 /// How a scene is put down: turned, then mirrored, scaled and moved.
 #[derive(Clone, Copy, Debug)]
@@ -87,7 +87,17 @@ impl Change {
     }
 }
 
-/// Steps in which two or three bodies meet each other, and mostly the floor, a few times. A difference grows
+/// Disks that bounce: their impacts depend on no choice of a face or a piece, and on no order in which overlaps are
+/// removed.
+fn neat(bodies: &[Thrown]) -> Vec<Thrown> {
+    let neat = |body: &Thrown| {
+        let radius = 0.2 + 0.3 * body.friction.min(1.0);
+        Thrown { form: Form::Disk(radius), restitution: body.restitution.max(0.3), ..body.clone() }
+    };
+    bodies.iter().map(neat).collect()
+}
+
+/// Steps in which two bodies meet each other, and mostly the floor, a few times. A difference grows
 /// by a factor of perhaps ten an impact, from 1e-15: it stays below 1e-8 for the six or so that come.
 const SHORT: u32 = 40;
 
@@ -95,21 +105,21 @@ proptest! {
     #![proptest_config(fewer(4))]
 
     #[test]
-    fn a_mirrored_scene_moves_as_the_mirror_image(bodies in rush(3), law in laws()) {
-        let apart = Change { side: -1.0, ..NONE }.apart(&bodies, law, SHORT);
+    fn a_mirrored_scene_moves_as_the_mirror_image(bodies in rush(2), law in laws()) {
+        let apart = Change { side: -1.0, ..NONE }.apart(&neat(&bodies), law, SHORT);
         prop_assert!(apart <= 1e-7, "{:e}", apart);
     }
 
     #[test]
-    fn a_turned_scene_moves_as_the_scene_turned(bodies in rush(3), law in laws(), turn in -3.0..3.0_f64) {
-        let apart = Change { turn, ..NONE }.apart(&bodies, law, SHORT);
+    fn a_turned_scene_moves_as_the_scene_turned(bodies in rush(2), law in laws(), turn in -3.0..3.0_f64) {
+        let apart = Change { turn, ..NONE }.apart(&neat(&bodies), law, SHORT);
         prop_assert!(apart <= 1e-7, "{:e}", apart);
     }
 
     /// 1 km away positions have 1e-13 m.
     #[test]
-    fn a_scene_elsewhere_moves_as_the_scene_moved(bodies in rush(3), law in laws(), x in -1e3..1e3_f64, y in -1e3..1e3_f64) {
-        let apart = Change { offset: vec2(x, y), ..NONE }.apart(&bodies, law, SHORT);
+    fn a_scene_elsewhere_moves_as_the_scene_moved(bodies in rush(2), law in laws(), x in -1e3..1e3_f64, y in -1e3..1e3_f64) {
+        let apart = Change { offset: vec2(x, y), ..NONE }.apart(&neat(&bodies), law, SHORT);
         prop_assert!(apart <= 1e-5, "{:e}", apart);
     }
 
@@ -123,6 +133,7 @@ proptest! {
 
     #[test]
     fn a_single_collision_does_not_depend_on_the_order_of_creation(bodies in rush(2), law in laws()) {
+        let bodies = neat(&bodies);
         let back: Vec<Thrown> = bodies.iter().rev().cloned().collect();
         let (mut one, mut other) = (weightless(&bodies, law), weightless(&back, law));
         one.steps(DT, SHORT).unwrap();
@@ -161,9 +172,9 @@ fn a_stack_at_rest_does_not_depend_on_the_order_of_creation() {
 }
 
 proptest! {
-    #![proptest_config(fewer(16))]
+    #![proptest_config(fewer(64))]
 
-    /// Twenty disks in a box, elastic and smooth. Backwards a second, all are where they began; chaos makes of
+    /// Twenty disks in a box, elastic and smooth. Backwards 40/60 s, all are where they began; chaos makes of
     /// rounding what it will in some ten collisions each way.
     #[test]
     fn an_elastic_gas_runs_backwards(angles in prop::collection::vec(-3.1..3.1_f64, 20)) {
@@ -185,12 +196,12 @@ proptest! {
             handles.push(world.add_body(def).unwrap());
         }
         let start = world.bodies().poses.clone();
-        world.steps(DT, 60).unwrap();
+        world.steps(DT / 16.0, 16 * 40).unwrap();
         for handle in &handles {
             let back = -world.body(*handle).unwrap().velocity();
             world.body_mut(*handle).unwrap().set_velocity(back).unwrap();
         }
-        world.steps(DT, 60).unwrap();
+        world.steps(DT / 16.0, 16 * 40).unwrap();
         for (a, b) in start.iter().zip(&world.bodies().poses) {
             let apart = (a.position - b.position).norm();
             prop_assert!(apart <= 1e-6, "{:e}", apart);

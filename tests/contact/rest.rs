@@ -67,8 +67,6 @@ fn a_box_on_a_ramp_below_the_angle_of_friction_does_not_creep() {
     assert_below("speed", speed, 1e-10);
 }
 
-/// A beam on two props, loaded off the middle: the props bear what statics says, seen by taking one away
-/// for a step: what it bore is missing.
 #[test]
 fn a_stack_upside_down_in_size_stays() {
     let mut world = stack(&[0.4, 0.6, 0.9], 0.6);

@@ -45,14 +45,12 @@ proptest! {
     ) {
         let mut world = bin(&bodies);
         world.steps(DT, before).unwrap();
-        let (state, then) = (bytes(&world), future(&world, 40));
+        let then = future(&world, 40);
         let field = world.add_field(FailsAfter(world.time() + later));
         let with_field = bytes(&world);
         prop_assert!(world.steps(DT, 100).is_err());
         prop_assert!(with_field == bytes(&world), "the state has changed");
         world.remove_field(field).unwrap();
-        // The number of fields that were ever made stays in the state; the motion is as it would have been.
-        prop_assert_eq!(state.is_empty(), false);
         prop_assert!(then == future(&world, 40), "the world goes on differently");
     }
 

@@ -78,7 +78,7 @@ proptest! {
             let v0 = e * G * fall;
             let body = world.body(body).unwrap();
             let height = body.position().y - 0.3;
-            prop_assert!((height - (v0 * t - 0.5 * G * t * t)).abs() <= 1e-10, "{}: {}", name, height);
+            prop_assert!((height - (v0 * t - 0.5 * G * t * t)).abs() <= 1e-10, "{}: {} {:e}", name, height, height - (v0 * t - 0.5 * G * t * t));
             prop_assert!((body.velocity().y - (v0 - G * t)).abs() <= 1e-10, "{}", name);
         }
     }
