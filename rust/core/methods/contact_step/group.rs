@@ -62,6 +62,8 @@ pub struct Link {
     pub watched: Watched,
     /// Where a swift contact is going to meet.
     pub found: Manifold,
+    /// The manifold that the remembered impulses are of.
+    pub loaded: Manifold,
     /// It met in this substep.
     pub met: bool,
     /// It is apart in this substep: no row.

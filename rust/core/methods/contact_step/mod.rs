@@ -47,6 +47,9 @@ pub trait Surroundings {
     /// First fraction of the ways of the two bodies of a contact at which their shapes are within `target` (m) of
     /// one another, and the manifold there. The ways are counted from A's centre of mass at the start of the step.
     fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)>;
+
+    /// The manifold at the start of two ways with all that may touch along them; none if nothing may.
+    fn look(&self, link: &Link, ways: &[Sweep; 2]) -> Option<Manifold>;
 }
 
 /// How hard to try.

@@ -80,7 +80,7 @@ impl Pair<'_> {
         // half of what it is.
         let mut target = NEAR * self.link.width;
         let mut time = from;
-        while target > NEAREST * self.link.width && time < to {
+        while time < to {
             let ways = [0, 1].map(|side| self.way(side, [time, to]));
             let (fraction, manifold) = around.meet(self.link, &ways, target)?;
             time += fraction * (to - time);
@@ -93,9 +93,19 @@ impl Pair<'_> {
                 return Some((Arrival { time, approach }, manifold));
             }
             let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
+            if gap <= NEAREST * self.link.width {
+                return self.first_beside(manifold, [time, to]);
+            }
             target = 0.5 * gap;
         }
         None
+    }
+
+    /// First arrival of the other point of a manifold whose one point touches.
+    fn first_beside(&self, manifold: Manifold, times: [Real; 2]) -> Option<(Arrival, Manifold)> {
+        let link = Link { manifold, ..*self.link };
+        let arrival = Pair { link: &link, ..*self }.first_arrival(times[0], times[1])?;
+        Some((arrival, manifold))
     }
 
     /// The way of a body between two times, from A's centre of mass at the start of the step.

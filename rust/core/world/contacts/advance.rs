@@ -161,6 +161,7 @@ impl World {
                         (false, false) => Watched::No,
                     },
                     found: patch.manifold,
+                    loaded: patch.manifold,
                     met: false,
                     apart_now: false,
                     beside: [false; 2],
