@@ -8,7 +8,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::law;
-use super::path::{NEAR, Pair};
+use super::path::Pair;
 use super::{Group, Outcome, Surroundings, Watched};
 use crate::body::ImpactLaw;
 use crate::collision::Manifold;
@@ -302,9 +302,11 @@ fn strike(
     let mut u = block.velocity(bodies);
     u[2] -= block.target[2];
     let mut restitution = [0.0; 2];
-    let touching = if link.watched == Watched::Swift { 4.0 * NEAR } else { 1e-9 };
+    // What meets within rounding of the first point meets with it.
+    let nearest = at.gap[..link.manifold.count].iter().copied().fold(Real::INFINITY, Real::min);
+    let touching = (1e-9 * link.width).max(4.0 * nearest);
     for p in 0..2 {
-        let touches = p < link.manifold.count && at.gap[p] <= touching * link.width;
+        let touches = p < link.manifold.count && at.gap[p] <= touching;
         block.on[p] = touches && u[p] < 0.0;
         restitution[p] = if -u[p] > link.resting[p] { link.restitution } else { 0.0 };
     }

@@ -76,8 +76,6 @@ impl Pair<'_> {
         [from, to]: [Real; 2],
         around: &dyn Surroundings,
     ) -> Option<(Arrival, Manifold)> {
-        // Where shapes touch and do not approach, another point may still swing in: it has come when the distance is
-        // half of what it is.
         let mut target = NEAR * self.link.width;
         let mut time = from;
         while time < to {
@@ -86,23 +84,34 @@ impl Pair<'_> {
             time += fraction * (to - time);
             let (places, velocities) = (self.places_at(time), self.velocities_at(time));
             let at = moved(&manifold, self.link.apart, [&places[0], &places[1]]);
+            let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
             let approach = |k: usize| -self.rates(&manifold, &at, k, (&places, &velocities)).0;
             let approach = (0..manifold.count).map(approach).fold(0.0, Real::max);
             let resting = self.link.resting[0].max(self.link.resting[1]);
-            if approach > resting {
-                return Some((Arrival { time, approach }, manifold));
+            let arrival = Arrival { time, approach };
+            // Near one another the features are those that meet: their arrival is known to the last digits.
+            let soon = if approach > resting { (4.0 * gap / approach).max(0.0) } else { 0.0 };
+            let met =
+                (approach > resting).then(|| self.by_features(manifold, [time, to])).flatten();
+            if let Some((met, _)) = met.filter(|(met, _)| met.time <= time + soon) {
+                return Some((met, manifold));
             }
-            let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
             if gap <= NEAREST * self.link.width {
-                return self.first_beside(manifold, [time, to]);
+                return if approach > resting {
+                    Some((arrival, manifold))
+                } else {
+                    self.by_features(manifold, [time, to])
+                };
             }
-            target = 0.5 * gap;
+            // They pass by, or touch and do not approach while another point may still swing in: the next moment is
+            // when they are nearer.
+            target = 0.25 * gap;
         }
         None
     }
 
-    /// First arrival of the other point of a manifold whose one point touches.
-    fn first_beside(&self, manifold: Manifold, times: [Real; 2]) -> Option<(Arrival, Manifold)> {
+    /// First arrival of a point of a manifold.
+    fn by_features(&self, manifold: Manifold, times: [Real; 2]) -> Option<(Arrival, Manifold)> {
         let link = Link { manifold, ..*self.link };
         let arrival = Pair { link: &link, ..*self }.first_arrival(times[0], times[1])?;
         Some((arrival, manifold))

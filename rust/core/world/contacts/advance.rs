@@ -138,8 +138,12 @@ impl World {
             let apart = bodies.poses[j].position - bodies.poses[i].position;
             let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
             let width = x.width.min(y.width);
-            let swift = contacts.spread > FAR * width
-                || is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
+            let far = contacts.spread > FAR * width;
+            let moves = |part| is_swift(bodies, [(i, x.reach), (j, y.reach)], (part * width, h));
+            // The features of round shapes stay the nearest ones; those of others change as they turn.
+            let bounces = touch.restitution > 0.0;
+            let turns = bounces && !(x.is_round() && y.is_round()) && moves(TURNS);
+            let swift = far || turns || moves(FAR);
             group.driven |= touch.tangent_speed != 0.0;
             let block = Block::new(slots, &patch.manifold, touch, &patch.memory);
             group.add_contact(
@@ -265,15 +269,17 @@ fn add_body(group: &mut Group, bodies: &Bodies, body: u32, (gravity, steady): (V
     });
 }
 
-/// Whether two bodies move too far in a substep for rows to foresee where they meet: by more than a quarter of the
-/// smaller width, or a quarter of a radian.
+/// A motion in a substep beyond this part of the width may bring other features together.
+const TURNS: Real = 0.01;
+
+/// Whether two bodies move farther against one another in a substep than a length.
 fn is_swift(
     bodies: &Bodies,
     [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
-    (width, h): (Real, Real),
+    (length, h): (Real, Real),
 ) -> bool {
     let [a, b] = [&bodies.twists[i], &bodies.twists[j]];
     let turn = a.angular.abs() * reach_i + b.angular.abs() * reach_j;
     let way = (b.linear - a.linear).norm() + turn;
-    way * h > FAR * width
+    way * h > length
 }
