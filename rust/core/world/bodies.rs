@@ -21,9 +21,9 @@ impl World {
     /// Removes a body and the schedules on it. The last body takes its place in body order.
     pub fn remove_body(&mut self, body: BodyHandle) -> Result<()> {
         let index = self.state.bodies.index(body)?;
+        self.forget_strays(index);
         self.state.contacts.remove(&self.state.bodies, index);
         self.state.bodies.remove(body)?;
-        self.forget_strays(index);
         self.state.schedules.retain(|schedule| schedule.body != body);
         self.plan = None;
         Ok(())

@@ -86,7 +86,9 @@ impl Pair<'_> {
             let at = moved(&manifold, self.link.apart, [&places[0], &places[1]]);
             let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
             let approach = |k: usize| -self.rates(&manifold, &at, k, (&places, &velocities)).0;
-            let approach = (0..manifold.count).map(approach).fold(0.0, Real::max);
+            // Of the points that are nearest; the manifold may hold one far away.
+            let near = |k: &usize| at.gap[*k] <= (4.0 * gap).max(NEAREST * self.link.width);
+            let approach = (0..manifold.count).filter(near).map(approach).fold(0.0, Real::max);
             let resting = self.link.resting[0].max(self.link.resting[1]);
             let arrival = Arrival { time, approach };
             // Near one another the features are those that meet: their arrival is known to the last digits.
@@ -96,16 +98,22 @@ impl Pair<'_> {
             if let Some((met, _)) = met.filter(|(met, _)| met.time <= time + soon) {
                 return Some((met, manifold));
             }
-            if gap <= NEAREST * self.link.width {
-                return if approach > resting {
-                    Some((arrival, manifold))
-                } else {
-                    self.by_features(manifold, [time, to])
-                };
+            if gap > NEAREST * self.link.width {
+                // They pass by, or leave while another point may still swing in: look when they are nearer.
+                target = 0.25 * gap;
+                continue;
             }
-            // They pass by, or touch and do not approach while another point may still swing in: the next moment is
-            // when they are nearer.
-            target = 0.25 * gap;
+            if approach > resting {
+                return Some((arrival, manifold));
+            }
+            // They touch and do not approach. Another point may swing in: of those that are near now, or of others
+            // when they have turned a little.
+            let turn = ways.iter().map(|way| (way.to.angle - way.from.angle).abs()).sum::<Real>();
+            let next = time + (to - time) / (turn / LITTLE).ceil().max(1.0);
+            if let Some(found) = self.by_features(manifold, [time, next]) {
+                return Some(found);
+            }
+            (time, target) = (next, NEAR * self.link.width);
         }
         None
     }
@@ -171,6 +179,9 @@ impl Pair<'_> {
 
 /// Swift shapes meet when they are this part of the smaller width apart.
 pub const NEAR: Real = 1e-2;
+
+/// Turn (rad) over which the features that are near do not change: both ends of an edge count as near up to 45°.
+const LITTLE: Real = 0.25;
 
 /// Down to which part of it further points are told from those that touch.
 const NEAREST: Real = 1e-5;
