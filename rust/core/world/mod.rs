@@ -2,6 +2,7 @@
 
 mod advance;
 mod bodies;
+mod colliding;
 mod columns;
 mod contacts;
 mod plan;
