@@ -49,10 +49,10 @@ impl Plan {
                 _ => plan.single.push(i),
             }
         }
-        if contacts.shaped() > 1 {
+        if contacts.touchable() > 1 {
             let moving =
                 (0..bodies.len()).filter(|i| bodies.infos[*i].def.kind != BodyKind::Static);
-            plan.colliding.extend(moving.filter(|i| contacts.has_shapes(*i)).map(|i| i as u32));
+            plan.colliding.extend(moving.filter(|i| contacts.can_touch(*i)).map(|i| i as u32));
         }
         plan
     }

@@ -300,7 +300,7 @@ fn strike(
     block.impulse = [0.0; 3];
     block.sliding = false;
     let mut u = block.velocity(bodies);
-    u[2] -= block.target[2];
+    u[2] -= link.tangent_speed;
     let mut restitution = [0.0; 2];
     // What meets within rounding of the first point meets with it.
     let nearest = at.gap[..link.manifold.count].iter().copied().fold(Real::INFINITY, Real::min);

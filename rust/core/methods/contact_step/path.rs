@@ -76,35 +76,31 @@ impl Pair<'_> {
         [from, to]: [Real; 2],
         around: &dyn Surroundings,
     ) -> Option<(Arrival, Manifold)> {
+        // Enough to halve distances down to rounding, and for a few turns between.
+        const TRIES: u32 = 64;
         let mut target = NEAR * self.link.width;
         let mut time = from;
-        while time < to {
+        for _ in 0..TRIES {
+            if time >= to {
+                return None;
+            }
             let ways = [0, 1].map(|side| self.way(side, [time, to]));
             let (fraction, manifold) = around.meet(self.link, &ways, target)?;
             time += fraction * (to - time);
-            let (places, velocities) = (self.places_at(time), self.velocities_at(time));
-            let at = moved(&manifold, self.link.apart, [&places[0], &places[1]]);
-            let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
-            let approach = |k: usize| -self.rates(&manifold, &at, k, (&places, &velocities)).0;
-            // Of the points that are nearest; the manifold may hold one far away.
-            let near = |k: &usize| at.gap[*k] <= (4.0 * gap).max(NEAREST * self.link.width);
-            let approach = (0..manifold.count).filter(near).map(approach).fold(0.0, Real::max);
+            let (gap, approach) = self.nearest(&manifold, time);
             let resting = self.link.resting[0].max(self.link.resting[1]);
-            let arrival = Arrival { time, approach };
-            // Near one another the features are those that meet: their arrival is known to the last digits.
-            let soon = if approach > resting { (4.0 * gap / approach).max(0.0) } else { 0.0 };
-            let met =
-                (approach > resting).then(|| self.by_features(manifold, [time, to])).flatten();
-            if let Some((met, _)) = met.filter(|(met, _)| met.time <= time + soon) {
-                return Some((met, manifold));
+            if approach > resting {
+                // Near one another the features are those that meet: their arrival is known to the last digits.
+                let soon = time + (4.0 * gap / approach).max(0.0);
+                let met = self.by_features(manifold, [time, to.min(soon)]);
+                if met.is_some() || gap <= NEAREST * self.link.width {
+                    return met.or(Some((Arrival { time, approach }, manifold)));
+                }
             }
             if gap > NEAREST * self.link.width {
                 // They pass by, or leave while another point may still swing in: look when they are nearer.
-                target = 0.25 * gap;
+                target = gap / 16.0;
                 continue;
-            }
-            if approach > resting {
-                return Some((arrival, manifold));
             }
             // They touch and do not approach. Another point may swing in: of those that are near now, or of others
             // when they have turned a little.
@@ -116,6 +112,17 @@ impl Pair<'_> {
             (time, target) = (next, NEAR * self.link.width);
         }
         None
+    }
+
+    /// Smallest gap of a manifold at a time, and the fastest approach of the points that are as near.
+    fn nearest(&self, manifold: &Manifold, time: Real) -> (Real, Real) {
+        let (places, velocities) = (self.places_at(time), self.velocities_at(time));
+        let at = moved(manifold, self.link.apart, [&places[0], &places[1]]);
+        let gap = at.gap[..manifold.count].iter().copied().fold(Real::INFINITY, Real::min);
+        let near = |k: &usize| at.gap[*k] <= (4.0 * gap).max(NEAREST * self.link.width);
+        let approach = |k: usize| -self.rates(manifold, &at, k, (&places, &velocities)).0;
+        let fastest = (0..manifold.count).filter(near).map(approach).fold(0.0, Real::max);
+        (gap, fastest)
     }
 
     /// First arrival of a point of a manifold.
@@ -184,7 +191,7 @@ pub const NEAR: Real = 1e-2;
 const LITTLE: Real = 0.25;
 
 /// Down to which part of it further points are told from those that touch.
-const NEAREST: Real = 1e-5;
+const NEAREST: Real = 1e-10;
 
 /// A gap below this part of the width is none.
 const SAME: Real = 1e-14;

@@ -138,12 +138,18 @@ impl World {
             let apart = bodies.poses[j].position - bodies.poses[i].position;
             let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
             let width = x.width.min(y.width);
-            let far = contacts.spread > FAR * width;
-            let moves = |part| is_swift(bodies, [(i, x.reach), (j, y.reach)], (part * width, h));
-            // The features of round shapes stay the nearest ones; those of others change as they turn.
             let bounces = touch.restitution > 0.0;
-            let turns = bounces && !(x.is_round() && y.is_round()) && moves(TURNS);
-            let swift = far || turns || moves(FAR);
+            let moves = |part, h| is_swift(bodies, [(i, x.reach), (j, y.reach)], (part * width, h));
+            // Features are known from the start of the step; those of round shapes stay the nearest ones.
+            let swift = contacts.spread > FAR * width
+                || moves(FAR, h)
+                || (bounces && moves(TURNS, span.duration));
+            let watched = match (swift, x.is_round() && y.is_round()) {
+                (true, false) => Watched::Swift,
+                (true, true) => Watched::Bounces,
+                (false, _) if bounces => Watched::Bounces,
+                (false, _) => Watched::No,
+            };
             group.driven |= touch.tangent_speed != 0.0;
             let block = Block::new(slots, &patch.manifold, touch, &patch.memory);
             group.add_contact(
@@ -159,11 +165,7 @@ impl World {
                     tangent_speed: touch.tangent_speed,
                     passes: [false; 2],
                     resting: [0.0; 2],
-                    watched: match (swift, touch.restitution > 0.0) {
-                        (true, _) => Watched::Swift,
-                        (false, true) => Watched::Bounces,
-                        (false, false) => Watched::No,
-                    },
+                    watched,
                     found: patch.manifold,
                     loaded: patch.manifold,
                     met: false,
