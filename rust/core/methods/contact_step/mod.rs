@@ -172,10 +172,9 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
         let [a, b] = block.bodies.map(|slot| slot as usize);
         let bodies = [&velocities[a], &velocities[b]];
         let along = block.velocity(bodies);
-        for k in 0..link.manifold.count {
-            let (target, on) =
-                row(link, (block, k), (along[k], kicked(block, k, [&places[a], &places[b]], h)), h);
-            (block.target[k], block.on[k]) = (target, on);
+        for (k, along) in along.iter().enumerate().take(link.manifold.count) {
+            let kick = kicked(block, k, [&places[a], &places[b]], h);
+            (block.target[k], block.on[k]) = row(link, (block, k), (*along, kick), h);
         }
         // What sticks obeys J(v⁻ + v⁺) = 0 along the surface as well, so that a rod that pivots keeps its energy.
         block.target[2] = link.tangent_speed - 0.5 * h * link.turning;
