@@ -88,16 +88,17 @@ impl Pair<'_> {
             let (fraction, manifold) = around.meet(self.link, &ways, target)?;
             time += fraction * (to - time);
             let (gap, approach) = self.nearest(&manifold, time);
+            let none = NEAREST * self.link.width + 16.0 * self.rounding(&self.places_at(time));
             let resting = self.link.resting[0].max(self.link.resting[1]);
             if approach > resting {
                 // Near one another the features are those that meet: their arrival is known to the last digits.
                 let soon = time + (4.0 * gap / approach).max(0.0);
                 let met = self.by_features(manifold, [time, to.min(soon)]);
-                if met.is_some() || gap <= NEAREST * self.link.width {
+                if met.is_some() || gap <= none {
                     return met.or(Some((Arrival { time, approach }, manifold)));
                 }
             }
-            if gap > NEAREST * self.link.width {
+            if gap > none {
                 // They pass by, or leave while another point may still swing in: look when they are nearer.
                 target = gap / 16.0;
                 continue;
@@ -112,6 +113,12 @@ impl Pair<'_> {
             (time, target) = (next, NEAR * self.link.width);
         }
         None
+    }
+
+    /// What rounding may do to a gap (m).
+    fn rounding(&self, places: &[Place; 2]) -> Real {
+        let ways = places[0].way.norm() + places[1].way.norm();
+        4.0 * Real::EPSILON * (self.link.apart.norm() + ways)
     }
 
     /// Smallest gap of a manifold at a time, and the fastest approach of the points that are as near.
@@ -152,7 +159,8 @@ impl Pair<'_> {
             let at = moved(manifold, self.link.apart, [&places[0], &places[1]]);
             let (rate, bend) = self.rates(manifold, &at, k, (&places, &velocities));
             let gap = at.gap[k];
-            if gap <= SAME * self.link.width && (step > 0 || gap <= 0.0) {
+            let same = SAME * self.link.width + self.rounding(&places);
+            if gap <= same && (step > 0 || gap <= 0.0) {
                 let arrives =
                     -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link.width);
                 return arrives.then_some(Arrival { time, approach: -rate });
