@@ -5,13 +5,13 @@ use super::hooks::Answer;
 use super::near::Kind;
 use super::surroundings::{Fields, Still};
 use crate::body::Bodies;
-use crate::collision::Manifold;
+use crate::collision::{Anchor, Collider, Manifold, Normal};
 use crate::constraints::contact::Block;
 use crate::constraints::{Place, Velocity};
 use crate::error::Result;
 use crate::forces::Forces;
 use crate::islands::Islands;
-use crate::math::{Real, Twist, Vec2, Wrench};
+use crate::math::{Real, Rot, Twist, Vec2, Wrench, perp};
 use crate::methods::Span;
 use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Watched};
 use crate::world::{State, World};
@@ -139,7 +139,9 @@ impl World {
             let apart = bodies.poses[j].position - bodies.poses[i].position;
             let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
             let width = x.width.min(y.width);
-            let moves = |part, h| is_swift(bodies, [(i, x.reach), (j, y.reach)], (part * width, h));
+            let holder = if matches!(patch.manifold.normal, Normal::OnB(_)) { j } else { i };
+            let manifold = (&patch.manifold, contacts.frames[holder].rot);
+            let moves = |part, h| moves_far(bodies, [x, y], manifold, (part * width, h));
             let watched = watched(
                 contacts.spread > FAR * width || moves(FAR, h),
                 (touch.restitution > 0.0, moves(TURNS, span.duration)),
@@ -264,16 +266,30 @@ fn watched(far: bool, (bounces, turns): (bool, bool), round: bool) -> Watched {
 }
 
 /// A motion in a step beyond this part of the width may bring other features together.
-const TURNS: Real = 0.01;
+const TURNS: Real = 0.25;
 
-/// Whether two bodies move farther against one another in a substep than a length.
-fn is_swift(
+/// Whether two bodies move farther against one another in a time h than a length, so that other features than those of
+/// the manifold may meet. What slides along a face and stays on it does not.
+fn moves_far(
     bodies: &Bodies,
-    [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
+    colliders: [&Collider; 2],
+    (manifold, rot): (&Manifold, Rot),
     (length, h): (Real, Real),
 ) -> bool {
-    let [a, b] = [&bodies.twists[i], &bodies.twists[j]];
-    let turn = a.angular.abs() * reach_i + b.angular.abs() * reach_j;
-    let way = (b.linear - a.linear).norm() + turn;
-    way * h > length
+    let [a, b] = colliders.map(|collider| &bodies.twists[collider.body as usize]);
+    let turn = a.angular.abs() * colliders[0].reach + b.angular.abs() * colliders[1].reach;
+    let speed = b.linear - a.linear;
+    let way = speed.norm() * h;
+    let (normal, on_face): (Vec2, fn(&Anchor) -> Vec2) = match manifold.normal {
+        Normal::OnA(normal) => (normal, |anchor| anchor.on_a),
+        Normal::OnB(normal) => (normal, |anchor| anchor.on_b),
+        Normal::Between | Normal::Inside => return way + turn * h > length,
+    };
+    let [low, high] = manifold.face;
+    let stays = manifold.anchors[..manifold.count].iter().all(|anchor| {
+        let along = perp(normal).dot(&on_face(anchor));
+        along - way >= low && along + way <= high
+    });
+    let way = if stays { rot.apply(normal).dot(&speed).abs() * h } else { way };
+    way + turn * h > length
 }
