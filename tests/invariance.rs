@@ -12,7 +12,7 @@ use culbuto::methods::REGISTRY;
 use culbuto::shapes::Shape;
 use culbuto::{BodyDef, World};
 use proptest::prelude::*;
-use worlds::{EPS, Lorentz, bits, world_with};
+use worlds::{APART, EPS, Lorentz, bits, world_with};
 
 /// A scene as numbers, to be looked at in several ways.
 #[derive(Clone, Debug)]
@@ -70,6 +70,7 @@ impl Rod {
             torque: self.torque,
             linear_damping: damping,
             angular_damping: 0.5 * damping,
+            filter: APART,
             ..BodyDef::compound(parts.map(Into::into))
         }
     }

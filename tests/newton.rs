@@ -12,7 +12,7 @@ use culbuto::methods::{Facts, REGISTRY};
 use culbuto::shapes::Shape;
 use culbuto::{BodyDef, World};
 use proptest::prelude::*;
-use worlds::{EPS, Lorentz, Righting, Springs, assert_below, bits, order, world_with};
+use worlds::{APART, EPS, Lorentz, Righting, Springs, assert_below, bits, order, world_with};
 
 fn all_facts() -> impl Iterator<Item = &'static Facts> {
     REGISTRY.iter().map(|method| method.facts())
@@ -205,7 +205,11 @@ proptest! {
         force in vector(9.0), wind in vector(9.0), with_field in any::<bool>(),
     ) {
         let locks = Locks { x: locks.0, y: locks.1, rotation: locks.2 };
-        let shape = || BodyDef { angle: 0.3, ..BodyDef::new(Shape::rectangle(1.0, 0.5).unwrap()) };
+        let shape = || BodyDef {
+            angle: 0.3,
+            filter: APART,
+            ..BodyDef::new(Shape::rectangle(1.0, 0.5).unwrap())
+        };
         let acted = || BodyDef { force, torque: 2.0, linear_damping: 0.5, angular_damping: 0.2, ..shape() };
         for facts in all_facts() {
             let mut world = world_with(facts.name);

@@ -2,10 +2,14 @@
 #![allow(dead_code)] // each test file uses its own part
 
 use culbuto::World;
+use culbuto::body::Filter;
 use culbuto::forces::{BodyColumns, BoxError, FieldFacts, ForceField};
 use culbuto::math::{Real, Vec2, Wrench, perp, sin_cos, vec2};
 
 pub const EPS: Real = Real::EPSILON;
+
+/// Of bodies that touch nothing, where a test is about free motion.
+pub const APART: Filter = Filter { category: 1, mask: 0, group: 0 };
 
 /// Positions, angles and velocities of all bodies and the time, to the bit.
 pub fn bits(world: &World) -> Vec<u64> {

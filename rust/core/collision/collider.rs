@@ -173,6 +173,12 @@ pub fn colliders(body: u32, parts: &[Part], center: Vec2) -> Vec<Collider> {
 }
 
 impl Collider {
+    /// Whether it is a disk.
+    #[must_use]
+    pub fn is_round(&self) -> bool {
+        matches!(&self.geometry, Geometry::Convex(convex) if convex.vertices.len() == 1)
+    }
+
     /// A piece of a shape of a body.
     #[must_use]
     pub fn new(body: u32, part: u32, geometry: Geometry) -> Self {

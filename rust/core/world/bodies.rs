@@ -26,9 +26,9 @@ impl World {
     pub fn remove_body(&mut self, body: BodyHandle) -> Result<()> {
         let index = self.state.bodies.index(body)?;
         self.disturbed(index);
+        self.forget_strays(index);
         self.state.contacts.remove(&self.state.bodies, index);
         self.state.bodies.remove(body)?;
-        self.forget_strays(index);
         self.state.schedules.retain(|schedule| schedule.body != body);
         self.plan = None;
         Ok(())

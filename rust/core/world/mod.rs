@@ -3,6 +3,7 @@
 mod advance;
 mod backup;
 mod bodies;
+mod colliding;
 mod columns;
 mod contacts;
 mod plan;
@@ -288,7 +289,7 @@ impl World {
     }
 
     /// Whether bodies that have come to rest are left out of the work until something wakes them. Their last energy
-    /// counts as dissipated. Setting it wakes all bodies.
+    /// counts as dissipated. Steps put bodies to sleep, [`World::advance`] only wakes them. Setting it wakes all bodies.
     pub fn set_sleeping(&mut self, on: bool) {
         self.state.settings.sleeping = on;
         self.wake_all();

@@ -49,11 +49,11 @@ impl Plan {
                 _ => plan.single.push(i),
             }
         }
-        if contacts.shaped() > 1 {
+        if contacts.touchable() > 1 {
             let moving = (0..bodies.len()).filter(|i| {
                 bodies.infos[*i].def.kind != BodyKind::Static && !contacts.is_asleep(*i)
             });
-            plan.colliding.extend(moving.filter(|i| contacts.has_shapes(*i)).map(|i| i as u32));
+            plan.colliding.extend(moving.filter(|i| contacts.can_touch(*i)).map(|i| i as u32));
         }
         plan
     }

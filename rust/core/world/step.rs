@@ -80,7 +80,7 @@ impl World {
 
     /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
     /// or strikes what sleeps, the step is taken again with that in view, or awake.
-    fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
+    pub(super) fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
         let hits = self.events.hit.len();
         let mut spread = 0.0;
         for tries in 1.. {

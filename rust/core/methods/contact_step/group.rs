@@ -62,6 +62,8 @@ pub struct Link {
     pub watched: Watched,
     /// Where a swift contact is going to meet.
     pub found: Manifold,
+    /// The manifold that the remembered impulses are of.
+    pub loaded: Manifold,
     /// It met in this substep.
     pub met: bool,
     /// It is apart in this substep: no row.
@@ -72,6 +74,33 @@ pub struct Link {
     pub hit: Hit,
     /// Normal impulses of the rows in the step (N·s).
     pub passed: Real,
+}
+
+impl Link {
+    /// Of a manifold that is kept at a place; all else as if nothing were known.
+    #[must_use]
+    pub fn new(manifold: Manifold, place: u32) -> Self {
+        Self {
+            manifold,
+            apart: Vec2::zeros(),
+            restitution: 0.0,
+            width: 0.0,
+            place,
+            curvature: [0.0; 2],
+            turning: 0.0,
+            tangent_speed: 0.0,
+            passes: [false; 2],
+            resting: [0.0; 2],
+            watched: Watched::No,
+            found: manifold,
+            loaded: manifold,
+            met: false,
+            apart_now: false,
+            beside: [false; 2],
+            hit: Hit::default(),
+            passed: 0.0,
+        }
+    }
 }
 
 /// Impacts of a contact in a step, for events. Time, place and speed are those of the fastest.

@@ -8,9 +8,10 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use super::law;
-use super::path::{NEAR, Pair};
+use super::path::Pair;
 use super::{Group, Outcome, Surroundings, Watched};
 use crate::body::ImpactLaw;
+use crate::collision::Manifold;
 use crate::constraints::contact::{Block, moved};
 use crate::math::{Real, Twist, Vec2};
 
@@ -121,7 +122,8 @@ pub fn resolve(
     group.h = h;
     for k in &watch.blocks {
         set_resting(group, *k as usize, h);
-        group.links[*k as usize].met = false;
+        let link = &mut group.links[*k as usize];
+        (link.met, link.loaded) = (false, link.manifold);
     }
     strike_all(group, &mut watch, h / 2.0, law, (around, outcome));
     for k in &watch.blocks {
@@ -195,16 +197,34 @@ fn look_again(group: &mut Group, watch: &Watch, k: usize, around: &dyn Surroundi
     let [since_a, since_b] = group.blocks[k].bodies.map(|slot| watch.since[slot as usize]);
     let now = since_a.max(since_b).max(0.0);
     let pair = pair(group, k, false);
-    let middle = [0, 1].map(|side| pair.way(side, [now, now]));
+    let ways = [0, 1].map(|side| pair.way(side, [now, group.h / 2.0]));
     let link = &mut group.links[k];
     if !link.met {
-        let touching = around.meet(link, &middle, NEAR * link.width);
-        link.apart_now = touching.is_none();
-        link.manifold = touching.map_or(link.manifold, |(_, manifold)| manifold);
+        let seen = around.look(link, &ways);
+        link.apart_now = seen.is_none();
+        link.manifold = seen.unwrap_or(link.manifold);
     }
     let block = &mut group.blocks[k];
-    (block.impulse, block.count) = ([0.0; 3], link.manifold.count as u8);
+    block.count = link.manifold.count as u8;
+    remember(block, &link.loaded, &link.manifold);
     super::place_block(group, k, now);
+}
+
+/// Gives a block the impulses of those points of `before` that its manifold still has.
+fn remember(block: &mut Block, before: &Manifold, manifold: &Manifold) {
+    let old = block.impulse;
+    block.impulse = [0.0; 3];
+    for k in 0..manifold.count {
+        for j in 0..before.count {
+            if manifold.anchors[k].feature == before.anchors[j].feature {
+                block.impulse[k] = old[j];
+            }
+        }
+    }
+    let (kept, sum) = (block.impulse[0] + block.impulse[1], old[0] + old[1]);
+    if kept > 0.0 {
+        block.impulse[2] = old[2] * (kept / sum);
+    }
 }
 
 /// The approach that the kicks of the substep give a contact by themselves, and rounding.
@@ -280,11 +300,13 @@ fn strike(
     block.impulse = [0.0; 3];
     block.sliding = false;
     let mut u = block.velocity(bodies);
-    u[2] -= block.target[2];
+    u[2] -= link.tangent_speed;
     let mut restitution = [0.0; 2];
-    let touching = if link.watched == Watched::Swift { 4.0 * NEAR } else { 1e-9 };
+    // What meets within rounding of the first point meets with it.
+    let nearest = at.gap[..link.manifold.count].iter().copied().fold(Real::INFINITY, Real::min);
+    let touching = (1e-9 * link.width).max(4.0 * nearest);
     for p in 0..2 {
-        let touches = p < link.manifold.count && at.gap[p] <= touching * link.width;
+        let touches = p < link.manifold.count && at.gap[p] <= touching;
         block.on[p] = touches && u[p] < 0.0;
         restitution[p] = if -u[p] > link.resting[p] { link.restitution } else { 0.0 };
     }

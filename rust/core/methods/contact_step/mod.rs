@@ -47,6 +47,9 @@ pub trait Surroundings {
     /// First fraction of the ways of the two bodies of a contact at which their shapes are within `target` (m) of
     /// one another, and the manifold there. The ways are counted from A's centre of mass at the start of the step.
     fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)>;
+
+    /// The manifold at the start of two ways with all that may touch along them; none if nothing may.
+    fn look(&self, link: &Link, ways: &[Sweep; 2]) -> Option<Manifold>;
 }
 
 /// How hard to try.
@@ -169,10 +172,9 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
         let [a, b] = block.bodies.map(|slot| slot as usize);
         let bodies = [&velocities[a], &velocities[b]];
         let along = block.velocity(bodies);
-        for k in 0..link.manifold.count {
-            let (target, on) =
-                row(link, (block, k), (along[k], kicked(block, k, [&places[a], &places[b]], h)), h);
-            (block.target[k], block.on[k]) = (target, on);
+        for (k, along) in along.iter().enumerate().take(link.manifold.count) {
+            let kick = kicked(block, k, [&places[a], &places[b]], h);
+            (block.target[k], block.on[k]) = row(link, (block, k), (*along, kick), h);
         }
         // What sticks obeys J(v⁻ + v⁺) = 0 along the surface as well, so that a rod that pivots keeps its energy.
         block.target[2] = link.tangent_speed - 0.5 * h * link.turning;

@@ -76,26 +76,67 @@ impl Pair<'_> {
         [from, to]: [Real; 2],
         around: &dyn Surroundings,
     ) -> Option<(Arrival, Manifold)> {
-        // Where shapes touch and do not approach, another point may still swing in: it has come when the distance is
-        // half of what it is.
+        // Enough to halve distances down to rounding, and for a few turns between.
+        const TRIES: u32 = 64;
         let mut target = NEAR * self.link.width;
         let mut time = from;
-        while target > NEAREST * self.link.width && time < to {
+        for _ in 0..TRIES {
+            if time >= to {
+                return None;
+            }
             let ways = [0, 1].map(|side| self.way(side, [time, to]));
             let (fraction, manifold) = around.meet(self.link, &ways, target)?;
             time += fraction * (to - time);
-            let (places, velocities) = (self.places_at(time), self.velocities_at(time));
-            let at = moved(&manifold, self.link.apart, [&places[0], &places[1]]);
-            let approach = |k: usize| -self.rates(&manifold, &at, k, (&places, &velocities)).0;
-            let approach = (0..manifold.count).map(approach).fold(0.0, Real::max);
+            let (gap, approach) = self.nearest(&manifold, time);
+            let none = NEAREST * self.link.width + 16.0 * self.rounding(&self.places_at(time));
             let resting = self.link.resting[0].max(self.link.resting[1]);
             if approach > resting {
-                return Some((Arrival { time, approach }, manifold));
+                // Near one another the features are those that meet: their arrival is known to the last digits.
+                let soon = time + (4.0 * gap / approach).max(0.0);
+                let met = self.by_features(manifold, [time, to.min(soon)]);
+                if met.is_some() || gap <= none {
+                    return met.or(Some((Arrival { time, approach }, manifold)));
+                }
             }
-            let gap = at.gap[..manifold.count].iter().copied().fold(target, Real::min);
-            target = 0.5 * gap;
+            if gap > none {
+                // They pass by, or leave while another point may still swing in: look when they are nearer.
+                target = gap / 16.0;
+                continue;
+            }
+            // They touch and do not approach. Another point may swing in: of those that are near now, or of others
+            // when they have turned a little.
+            let turn = ways.iter().map(|way| (way.to.angle - way.from.angle).abs()).sum::<Real>();
+            let next = time + (to - time) / (turn / LITTLE).ceil().max(1.0);
+            if let Some(found) = self.by_features(manifold, [time, next]) {
+                return Some(found);
+            }
+            (time, target) = (next, NEAR * self.link.width);
         }
         None
+    }
+
+    /// What rounding may do to a gap (m).
+    fn rounding(&self, places: &[Place; 2]) -> Real {
+        let ways = places[0].way.norm() + places[1].way.norm();
+        4.0 * Real::EPSILON * (self.link.apart.norm() + ways)
+    }
+
+    /// Smallest gap of a manifold at a time, and the fastest approach of the points that are as near.
+    fn nearest(&self, manifold: &Manifold, time: Real) -> (Real, Real) {
+        let (places, velocities) = (self.places_at(time), self.velocities_at(time));
+        let at = moved(manifold, self.link.apart, [&places[0], &places[1]]);
+        let gap = at.gap[..manifold.count].iter().copied().fold(Real::INFINITY, Real::min);
+        let near = |k: &usize| at.gap[*k] <= (4.0 * gap).max(NEAREST * self.link.width);
+        let approach = |k: usize| -self.rates(manifold, &at, k, (&places, &velocities)).0;
+        let fastest = (0..manifold.count).filter(near).map(approach).fold(0.0, Real::max);
+        (gap, fastest)
+    }
+
+    /// First arrival of a point of a manifold.
+    fn by_features(&self, manifold: Manifold, times: [Real; 2]) -> Option<(Arrival, Manifold)> {
+        let link = Link { manifold, ..*self.link };
+        let arrival = Pair { link: &link, ..*self }.first_arrival(times[0], times[1])?;
+        Some((arrival, manifold))
     }
 
     /// The way of a body between two times, from A's centre of mass at the start of the step.
@@ -118,7 +159,8 @@ impl Pair<'_> {
             let at = moved(manifold, self.link.apart, [&places[0], &places[1]]);
             let (rate, bend) = self.rates(manifold, &at, k, (&places, &velocities));
             let gap = at.gap[k];
-            if gap <= SAME * self.link.width && (step > 0 || gap <= 0.0) {
+            let same = SAME * self.link.width + self.rounding(&places);
+            if gap <= same && (step > 0 || gap <= 0.0) {
                 let arrives =
                     -rate > self.link.resting[k] && on_face(manifold, &at, k, self.link.width);
                 return arrives.then_some(Arrival { time, approach: -rate });
@@ -153,8 +195,11 @@ impl Pair<'_> {
 /// Swift shapes meet when they are this part of the smaller width apart.
 pub const NEAR: Real = 1e-2;
 
+/// Turn (rad) over which the features that are near do not change: both ends of an edge count as near up to 45°.
+const LITTLE: Real = 0.25;
+
 /// Down to which part of it further points are told from those that touch.
-const NEAREST: Real = 1e-5;
+const NEAREST: Real = 1e-10;
 
 /// A gap below this part of the width is none.
 const SAME: Real = 1e-14;

@@ -13,7 +13,7 @@ use crate::forces::Forces;
 use crate::islands::Islands;
 use crate::math::{Real, Twist, Vec2, Wrench};
 use crate::methods::Span;
-use crate::methods::contact_step::{self, Group, Hit, Link, Mass, Outcome, Watched};
+use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Watched};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -158,36 +158,23 @@ impl World {
             let apart = bodies.poses[j].position - bodies.poses[i].position;
             let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
             let width = x.width.min(y.width);
-            let swift = contacts.spread > FAR * width
-                || is_swift(bodies, [(i, x.reach), (j, y.reach)], (width, h));
+            let moves = |part, h| is_swift(bodies, [(i, x.reach), (j, y.reach)], (part * width, h));
+            let watched = watched(
+                contacts.spread > FAR * width || moves(FAR, h),
+                (touch.restitution > 0.0, moves(TURNS, span.duration)),
+                x.is_round() && y.is_round(),
+            );
             group.driven |= touch.tangent_speed != 0.0;
             let block = Block::new(slots, &patch.manifold, touch, &patch.memory);
-            group.add_contact(
-                block,
-                Link {
-                    manifold: patch.manifold,
-                    apart,
-                    restitution: touch.restitution,
-                    width,
-                    place,
-                    curvature: [0.0; 2],
-                    turning: 0.0,
-                    tangent_speed: touch.tangent_speed,
-                    passes: [false; 2],
-                    resting: [0.0; 2],
-                    watched: match (swift, touch.restitution > 0.0) {
-                        (true, _) => Watched::Swift,
-                        (false, true) => Watched::Bounces,
-                        (false, false) => Watched::No,
-                    },
-                    found: patch.manifold,
-                    met: false,
-                    apart_now: false,
-                    beside: [false; 2],
-                    hit: Hit::default(),
-                    passed: 0.0,
-                },
-            );
+            let link = Link {
+                apart,
+                restitution: touch.restitution,
+                width,
+                tangent_speed: touch.tangent_speed,
+                watched,
+                ..Link::new(patch.manifold, place)
+            };
+            group.add_contact(block, link);
         }
     }
 
@@ -292,15 +279,28 @@ fn add_body(
     });
 }
 
-/// Whether two bodies move too far in a substep for rows to foresee where they meet: by more than a quarter of the
-/// smaller width, or a quarter of a radian.
+/// How arrivals of a contact are looked for. Features are known from the start of the step; those of round shapes stay
+/// the nearest ones, others may give way to others when the bodies turn.
+fn watched(far: bool, (bounces, turns): (bool, bool), round: bool) -> Watched {
+    match (far || (bounces && turns), round) {
+        (true, false) => Watched::Swift,
+        (true, true) => Watched::Bounces,
+        (false, _) if bounces => Watched::Bounces,
+        (false, _) => Watched::No,
+    }
+}
+
+/// A motion in a step beyond this part of the width may bring other features together.
+const TURNS: Real = 0.01;
+
+/// Whether two bodies move farther against one another in a substep than a length.
 fn is_swift(
     bodies: &Bodies,
     [(i, reach_i), (j, reach_j)]: [(usize, Real); 2],
-    (width, h): (Real, Real),
+    (length, h): (Real, Real),
 ) -> bool {
     let [a, b] = [&bodies.twists[i], &bodies.twists[j]];
     let turn = a.angular.abs() * reach_i + b.angular.abs() * reach_j;
     let way = (b.linear - a.linear).norm() + turn;
-    way * h > FAR * width
+    way * h > length
 }

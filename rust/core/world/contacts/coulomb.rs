@@ -88,8 +88,8 @@ proptest! {
                 let bound = sticking * (p + q);
                 prop_assert!(t.abs() <= bound * (1.0 + 1e-14), "{:?} beyond {}", block.impulse, bound);
                 let u = block.velocity(bodies);
-                for k in 0..usize::from(block.count) {
-                    let over = u[k] - block.target[k];
+                for (k, speed) in u.iter().enumerate().take(usize::from(block.count)) {
+                    let over = speed - block.target[k];
                     if block.on[k] {
                         prop_assert!(over >= -slack, "row {} is {:e} short of {:e}", k, over, slack);
                         prop_assert!(block.impulse[k] == 0.0 || over <= slack, "row {} pulls: {:e}", k, over);

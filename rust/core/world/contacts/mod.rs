@@ -84,9 +84,15 @@ const ORIGIN: Frame = Frame { position: vec2(0.0, 0.0), rot: Rot::IDENTITY };
 
 /// Keeping up with the bodies.
 impl Contacts {
-    /// Number of bodies that have shapes.
-    pub fn shaped(&self) -> usize {
-        self.of_body.iter().filter(|proxies| !proxies.is_empty()).count()
+    /// Number of bodies that some filter lets touch others.
+    pub fn touchable(&self) -> usize {
+        (0..self.of_body.len()).filter(|body| self.can_touch(*body)).count()
+    }
+
+    /// Whether the filter of some shape of a body lets it touch others.
+    pub fn can_touch(&self, body: usize) -> bool {
+        let filter = |proxy: &ProxyId| self.entries[proxy.0 as usize].filter;
+        self.of_body[body].iter().map(filter).any(|filter| filter.mask != 0 || filter.group > 0)
     }
 
     /// Whether a body has shapes.

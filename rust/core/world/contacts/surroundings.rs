@@ -2,7 +2,7 @@
 
 use super::Contacts;
 use crate::body::Bodies;
-use crate::collision::{Frame, Manifold, Sweep, collide, first_impact};
+use crate::collision::{Collider, Frame, Manifold, Sweep, collide, first_impact};
 use crate::error::{Error, Result};
 use crate::forces::{Air, Forces, drift_body, has_resistance};
 use crate::math::{Pose, Real, Twist, Vec2};
@@ -44,13 +44,30 @@ impl Surroundings for Still<'_> {
     }
 
     fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)> {
-        let near = &self.contacts.near[self.contacts.patches[link.place as usize].near as usize];
-        let [a, b] = near.proxies.map(|p| &self.contacts.entries[p.0 as usize].collider.geometry);
-        let hit = first_impact((a, &ways[0]), (b, &ways[1]), target)?;
-        let [frame_a, frame_b] = [0, 1].map(|k| Frame::of(&ways[k].at(hit.fraction)));
+        let [a, b] = self.colliders(link);
+        let hit = first_impact((&a.geometry, &ways[0]), (&b.geometry, &ways[1]), target)?;
+        let rest = ways.map(|way| Sweep { from: way.at(hit.fraction), to: way.to });
+        self.look(link, &rest).map(|manifold| (hit.fraction, manifold))
+    }
+
+    fn look(&self, link: &Link, ways: &[Sweep; 2]) -> Option<Manifold> {
+        let [a, b] = self.colliders(link);
+        let [way_a, way_b] = ways.map(|way| way.to.position - way.from.position);
+        let turns = [(0, a), (1, b)].map(|(side, collider)| {
+            (ways[side].to.angle - ways[side].from.angle).abs().min(2.0) * collider.reach
+        });
+        let margin = 0.04 * link.width + (way_b - way_a).norm() + turns[0] + turns[1];
+        let [frame_a, frame_b] = ways.map(|way| Frame::of(&way.from));
         let mut found = Vec::new();
-        collide(a, b, &frame_b.seen_from(&frame_a), 2.0 * target, &mut found);
-        found.first().map(|manifold| (hit.fraction, *manifold))
+        collide(&a.geometry, &b.geometry, &frame_b.seen_from(&frame_a), margin, &mut found);
+        found.first().copied()
+    }
+}
+
+impl Still<'_> {
+    fn colliders(&self, link: &Link) -> [&Collider; 2] {
+        let near = &self.contacts.near[self.contacts.patches[link.place as usize].near as usize];
+        near.proxies.map(|proxy| &self.contacts.entries[proxy.0 as usize].collider)
     }
 }
 
@@ -137,5 +154,9 @@ impl Surroundings for Fields<'_> {
 
     fn meet(&self, link: &Link, ways: &[Sweep; 2], target: Real) -> Option<(Real, Manifold)> {
         self.still.meet(link, ways, target)
+    }
+
+    fn look(&self, link: &Link, ways: &[Sweep; 2]) -> Option<Manifold> {
+        self.still.look(link, ways)
     }
 }
