@@ -803,6 +803,9 @@ class Body:
     @torque.setter
     def torque(self, value: float, /) -> None: ...
     @property
+    def asleep(self) -> bool:
+        """Whether the body sleeps: it rests, and is left out of the work until something wakes it."""
+    @property
     def kinetic_energy(self) -> float:
         """½mv² + ½Iω² (J); 0 of a body that does not answer to forces."""
     @property
@@ -965,6 +968,13 @@ class Body:
         """Changes the velocities at once by an impulse (N·s), at the centre or at a world point."""
     def apply_angular_impulse(self, impulse: float) -> None:
         """Changes the angular velocity at once by an angular impulse (N·m·s)."""
+    def wake(self) -> None:
+        """Wakes the body and the island that sleeps with it."""
+    def sleep(self) -> None:
+        """Lets the body sleep with all that it touched after the last step and that can move.
+
+        They stop, and what that takes counts as dissipated. Nothing happens where sleeping is off or a field acts.
+        """
     def distance_to(self, other: Body) -> Distance:
         """How far another body is, and where the two are nearest.
 
@@ -1607,6 +1617,9 @@ class World:
         """
     @impact_law.setter
     def impact_law(self, value: _ImpactLaw, /) -> None: ...
+    @property
+    def asleep(self) -> int:
+        """How many bodies sleep."""
     @property
     def sleeping(self) -> bool:
         """Whether bodies that rest are left out of the work until something wakes them."""

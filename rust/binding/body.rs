@@ -161,6 +161,12 @@ impl Body {
         })
     }
 
+    /// Whether the body sleeps: it rests, and is left out of the work until something wakes it.
+    #[getter]
+    fn asleep(&self, py: Python<'_>) -> PyResult<bool> {
+        self.read(py, |body| body.is_asleep())
+    }
+
     /// ½mv² + ½Iω² (J); 0 of a body that does not answer to forces.
     #[getter]
     fn kinetic_energy(&self, py: Python<'_>) -> PyResult<Real> {
@@ -208,6 +214,22 @@ impl Body {
     /// Changes the angular velocity at once by an angular impulse (N·m·s).
     fn apply_angular_impulse(&self, py: Python<'_>, impulse: Real) -> PyResult<()> {
         self.edit(py, |body| body.apply_angular_impulse(impulse))
+    }
+
+    /// Wakes the body and the island that sleeps with it.
+    fn wake(&self, py: Python<'_>) -> PyResult<()> {
+        self.edit(py, |body| {
+            body.wake();
+            Ok(())
+        })
+    }
+
+    /// Lets the body sleep with all that it touched after the last step and that can move, if sleeping is on.
+    fn sleep(&self, py: Python<'_>) -> PyResult<()> {
+        self.edit(py, |body| {
+            body.sleep();
+            Ok(())
+        })
     }
 }
 

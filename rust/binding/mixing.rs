@@ -117,6 +117,12 @@ impl World {
         Ok(self.core(py)?.settings().sleeping)
     }
 
+    /// How many bodies sleep.
+    #[getter]
+    fn asleep(&self, py: Python<'_>) -> PyResult<usize> {
+        Ok(self.core(py)?.asleep())
+    }
+
     #[setter]
     fn set_sleeping(&self, py: Python<'_>, on: bool) -> PyResult<()> {
         self.core(py)?.set_sleeping(on);

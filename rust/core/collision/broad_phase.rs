@@ -38,6 +38,18 @@ pub struct BroadPhase {
     moved: Vec<ProxyId>,
     #[serde(skip)]
     stack: Vec<u32>,
+    /// What has changed since a copy was made that [`BroadPhase::save_into`] keeps up; none: that knows nothing yet.
+    #[serde(skip)]
+    log: Option<Vec<Edit>>,
+}
+
+/// A change of the boxes.
+#[derive(Clone, Copy, Debug)]
+enum Edit {
+    Replace(ProxyId, Aabb),
+    Touch(ProxyId),
+    /// The list of those that moved was emptied.
+    Drain,
 }
 
 // By hand, so that a copy into an old one keeps its memory.
@@ -53,6 +65,7 @@ impl Clone for BroadPhase {
         self.proxies.clone_from(&from.proxies);
         self.moved.clone_from(&from.moved);
         self.free = from.free;
+        self.log = None;
     }
 }
 
@@ -64,6 +77,7 @@ impl Default for BroadPhase {
             free: NONE,
             moved: Vec::new(),
             stack: Vec::new(),
+            log: None,
         }
     }
 }
@@ -72,6 +86,7 @@ impl Default for BroadPhase {
 impl BroadPhase {
     /// Adds a box, kept `margin` (m) larger on every side. It counts as moved.
     pub fn insert(&mut self, tight: &Aabb, margin: Real, moving: bool) -> ProxyId {
+        self.log = None;
         let fat = tight.grown(margin);
         let id = if self.free == NONE { self.proxies.len() as u32 } else { self.free };
         let leaf = self.trees[usize::from(moving)].insert(fat, id);
@@ -88,6 +103,7 @@ impl BroadPhase {
 
     /// Removes a box. The caller drops its pairs.
     pub fn remove(&mut self, id: ProxyId) {
+        self.log = None;
         let Proxy { leaf, moving, moved, .. } = *self.proxy(id);
         self.trees[usize::from(moving)].remove(leaf);
         // If it moved it stays in the list, and meets nothing. (Infinities could not be serialised as text.)
@@ -102,15 +118,20 @@ impl BroadPhase {
     /// somewhere. Returns whether the fat box changed; then it counts as moved.
     pub fn update(&mut self, id: ProxyId, tight: &Aabb, margin: Real) -> bool {
         const LOOSEST: Real = 4.0;
-        let Proxy { fat, leaf, moving, .. } = *self.proxy(id);
+        let fat = self.proxy(id).fat;
         if fat.contains_box(tight) && tight.grown(LOOSEST * margin).contains_box(&fat) {
             return false;
         }
-        let fat = tight.grown(margin);
+        self.replace(id, tight.grown(margin));
+        true
+    }
+
+    fn replace(&mut self, id: ProxyId, fat: Aabb) {
+        let Proxy { leaf, moving, .. } = *self.proxy(id);
         self.trees[usize::from(moving)].replace(leaf, fat);
         self.proxies[id.0 as usize].fat = fat;
+        self.note(Edit::Replace(id, fat));
         self.touch(id);
-        true
     }
 
     /// Counts a box among those that move, or among those that stand still. If it changes sides it counts as
@@ -120,6 +141,7 @@ impl BroadPhase {
         if moving == before {
             return;
         }
+        self.log = None;
         self.trees[usize::from(before)].remove(leaf);
         let leaf = self.trees[usize::from(moving)].insert(fat, id.0);
         let proxy = &mut self.proxies[id.0 as usize];
@@ -133,6 +155,46 @@ impl BroadPhase {
         if !proxy.moved {
             proxy.moved = true;
             self.moved.push(id);
+            self.note(Edit::Touch(id));
+        }
+    }
+
+    fn note(&mut self, edit: Edit) {
+        let most = self.proxies.len();
+        if let Some(log) = &mut self.log {
+            log.push(edit);
+            if log.len() > most {
+                self.log = None;
+            }
+        }
+    }
+
+    /// Makes `copy` a copy of this, to the last bit. If it is the one that was made last, of a broad phase in which
+    /// little has changed since, the cost goes with what has changed.
+    pub fn save_into(&mut self, copy: &mut Self) {
+        match self.log.take() {
+            Some(mut log) => {
+                log.drain(..).for_each(|edit| copy.repeat(edit));
+                self.log = Some(log);
+            }
+            None => {
+                copy.clone_from(self);
+                self.log = Some(Vec::new());
+            }
+        }
+    }
+
+    fn repeat(&mut self, edit: Edit) {
+        match edit {
+            Edit::Replace(id, fat) => self.replace(id, fat),
+            Edit::Touch(id) => self.touch(id),
+            Edit::Drain => self.forget_moved(),
+        }
+    }
+
+    fn forget_moved(&mut self) {
+        for id in self.moved.drain(..) {
+            self.proxies[id.0 as usize].moved = false;
         }
     }
 
@@ -167,8 +229,9 @@ impl BroadPhase {
                 tree.query(&fat, stack, &mut see);
             }
         }
-        for id in moved.drain(..) {
-            proxies[id.0 as usize].moved = false;
+        if !self.moved.is_empty() {
+            self.forget_moved();
+            self.note(Edit::Drain);
         }
     }
 

@@ -178,6 +178,7 @@ pub static CATALOGUE: &[&Scene] = &[
     &extremes::BAD_OUTLINES,
     &extremes::STEPS,
     &extremes::BAD_MATTER,
+    &extremes::SLEEPERS,
     &extremes::GRAZING,
     &extremes::REPEATS,
     &extremes::RANDOM,

@@ -14,6 +14,10 @@ impl World {
     pub fn add_body(&mut self, def: BodyDef) -> Result<BodyHandle> {
         let handle = self.state.bodies.insert(def)?;
         self.state.contacts.add(&self.state.bodies);
+        let index = self.state.bodies.len() - 1;
+        if !self.state.bodies.masses[index].is_free() {
+            self.disturbed(index);
+        }
         self.plan = None;
         Ok(handle)
     }
@@ -21,6 +25,7 @@ impl World {
     /// Removes a body and the schedules on it. The last body takes its place in body order.
     pub fn remove_body(&mut self, body: BodyHandle) -> Result<()> {
         let index = self.state.bodies.index(body)?;
+        self.disturbed(index);
         self.forget_strays(index);
         self.state.contacts.remove(&self.state.bodies, index);
         self.state.bodies.remove(body)?;
@@ -32,7 +37,11 @@ impl World {
     /// A body, to read.
     pub fn body(&self, body: BodyHandle) -> Result<BodyRef<'_>> {
         let index = self.state.bodies.index(body)?;
-        Ok(BodyRef { bodies: &self.state.bodies, index })
+        Ok(BodyRef {
+            bodies: &self.state.bodies,
+            asleep: self.state.contacts.is_asleep(index),
+            index,
+        })
     }
 
     /// A body, to change.
@@ -46,6 +55,7 @@ impl World {
 #[derive(Clone, Copy)]
 pub struct BodyRef<'a> {
     bodies: &'a Bodies,
+    asleep: bool,
     index: usize,
 }
 
@@ -140,6 +150,12 @@ impl<'a> BodyRef<'a> {
         self.mass().kinetic_energy(&self.twist())
     }
 
+    /// Whether the body sleeps: it rests, and is left out of the work until something wakes it.
+    #[must_use]
+    pub fn is_asleep(&self) -> bool {
+        self.asleep
+    }
+
     /// Shapes, kind, locks, damping and the rest.
     #[must_use]
     pub fn info(&self) -> &'a Info {
@@ -167,7 +183,8 @@ impl BodyMut<'_> {
     /// Reads what was written.
     #[must_use]
     pub fn get(&self) -> BodyRef<'_> {
-        BodyRef { bodies: &self.world.state.bodies, index: self.index }
+        let asleep = self.world.state.contacts.is_asleep(self.index);
+        BodyRef { bodies: &self.world.state.bodies, asleep, index: self.index }
     }
 
     /// Puts the body's frame at a position (m).
@@ -203,6 +220,7 @@ impl BodyMut<'_> {
         check::finite("angular_velocity", twist.angular)?;
         let i = self.index;
         self.bodies().infos[i].def.allows_velocity(twist.linear, twist.angular)?;
+        self.world.pushed(i);
         self.bodies().twists[i] = twist;
         Ok(())
     }
@@ -224,6 +242,7 @@ impl BodyMut<'_> {
         check::finite_vec("force", wrench.force)?;
         check::finite("torque", wrench.torque)?;
         let i = self.index;
+        self.world.pushed(i);
         self.bodies().forces[i] = wrench;
         self.world.plan = None;
         Ok(())
@@ -234,6 +253,7 @@ impl BodyMut<'_> {
         check::finite_vec("force", force)?;
         let torque = self.torque_of(force, at)?;
         let i = self.index;
+        self.world.pushed(i);
         self.bodies().applied[i] += Wrench::new(force, torque);
         self.world.applied = true;
         Ok(())
@@ -243,6 +263,7 @@ impl BodyMut<'_> {
     pub fn apply_torque(&mut self, torque: Real) -> Result<()> {
         check::finite("torque", torque)?;
         let i = self.index;
+        self.world.pushed(i);
         self.bodies().applied[i].torque += torque;
         self.world.applied = true;
         Ok(())
@@ -262,6 +283,17 @@ impl BodyMut<'_> {
         self.jolt(&Wrench::new(vec2(0.0, 0.0), impulse))
     }
 
+    /// Wakes the body and the island that sleeps with it; one that is awake starts anew to be slow.
+    pub fn wake(&mut self) {
+        self.world.pushed(self.index);
+    }
+
+    /// Lets the body sleep together with all that it touched after the last step and that can move: they stop, and
+    /// what that takes counts as dissipated. Nothing happens where sleeping is off or a field acts.
+    pub fn sleep(&mut self) {
+        self.world.lay_down(self.index);
+    }
+
     fn torque_of(&self, force: Vec2, at: Option<Vec2>) -> Result<Real> {
         let Some(point) = at else { return Ok(0.0) };
         check::finite_vec("at", point)?;
@@ -276,9 +308,11 @@ impl BodyMut<'_> {
 
     fn edit(&mut self, edit: impl FnOnce(&mut BodyDef)) -> Result<()> {
         let i = self.index;
+        self.world.disturbed(i);
         self.bodies().edit(i, edit)?;
         self.world.forget_strays(i);
         self.world.state.contacts.replace(&self.world.state.bodies, i);
+        self.world.disturbed(i);
         self.world.plan = None;
         Ok(())
     }

@@ -57,7 +57,7 @@ impl World {
         let before = self.state.clone();
         for _ in 0..MOST_TRIES {
             self.collide_and_advance(dt)?;
-            let coarse = std::mem::replace(&mut self.state, before.clone());
+            let coarse = self.go_back(&before);
             self.events.hit.truncate(hits);
             self.state.settings.substeps = 2 * substeps;
             let fine = self.collide_and_advance(dt);
@@ -72,12 +72,23 @@ impl World {
                 return Ok((dt, dt * change.clamp(1.0, 3.0)));
             }
             self.report.rejected += 1;
-            self.state = before.clone();
+            self.go_back(&before);
             self.events.hit.truncate(hits);
             dt *= change.clamp(0.1, 0.5);
         }
         let why = "two steps of different length do not agree where bodies meet; ask for less";
         Err(Error::Tolerance { tolerance, time: self.time(), why: why.into() })
+    }
+
+    /// Puts a state back, and hands over the one that was there.
+    fn go_back(&mut self, before: &State) -> State {
+        let gone = std::mem::replace(&mut self.state, before.clone());
+        if self.state.settings.sleeping {
+            // Other bodies may have been awake.
+            self.plan = None;
+            self.planned();
+        }
+        gone
     }
 
     /// Largest difference of two states that began as one, relative to size or way.

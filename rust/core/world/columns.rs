@@ -106,6 +106,7 @@ impl World {
             }
         }
         let vector = |i: usize| Vec2::new(values[2 * i], values[2 * i + 1]);
+        self.wake_all();
         if matches!(column, Column::Positions | Column::Angles) {
             self.state.contacts.touch_all();
             self.strays.take();

@@ -1,6 +1,7 @@
 //! The [`World`]: one object that owns everything.
 
 mod advance;
+mod backup;
 mod bodies;
 mod colliding;
 mod columns;
@@ -8,6 +9,7 @@ mod contacts;
 mod plan;
 mod queries;
 mod report;
+mod sleep;
 mod snapshot;
 mod step;
 mod stepper;
@@ -136,8 +138,8 @@ pub struct World {
 /// Columns a step works in; no part of the state.
 #[derive(Clone, Default)]
 struct WorldScratch {
-    backup: step::Backup,
-    start: step::Start,
+    backup: backup::Backup,
+    start: backup::Start,
     steady: Vec<crate::math::Wrench>,
     forces: ForceBuffers,
     methods: Scratch,
@@ -221,6 +223,7 @@ impl World {
     /// Sets gravity (m/s²).
     pub fn set_gravity(&mut self, gravity: Vec2) -> Result<()> {
         self.state.settings.gravity = check::finite_vec("gravity", gravity)?;
+        self.wake_all();
         Ok(())
     }
 
@@ -229,6 +232,7 @@ impl World {
         check::not_negative("air density", air.density)?;
         check::finite_vec("wind", air.wind)?;
         self.state.settings.air = air;
+        self.wake_all();
         self.plan = None;
         Ok(())
     }
@@ -273,6 +277,7 @@ impl World {
     pub fn set_mixing(&mut self, mixing: Mixing) -> Result<()> {
         mixing.validated()?;
         self.state.settings.mixing = mixing;
+        self.wake_all();
         self.plan = None;
         Ok(())
     }
@@ -283,9 +288,11 @@ impl World {
         self.plan = None;
     }
 
-    /// Whether bodies that have come to rest are left out of the work until something wakes them.
+    /// Whether bodies that have come to rest are left out of the work until something wakes them. Their last energy
+    /// counts as dissipated. Steps put bodies to sleep, [`World::advance`] only wakes them. Setting it wakes all bodies.
     pub fn set_sleeping(&mut self, on: bool) {
         self.state.settings.sleeping = on;
+        self.wake_all();
         self.plan = None;
     }
 
@@ -323,6 +330,7 @@ impl World {
     /// Adds a field that is shared with others.
     pub fn add_shared_field(&mut self, field: Arc<dyn ForceField>) -> FieldHandle {
         self.fields.push(field);
+        self.wake_all();
         self.plan = None;
         self.state.field_map.insert()
     }
@@ -353,7 +361,8 @@ impl World {
         body: crate::body::BodyHandle,
         forces: ForceSchedule,
     ) -> Result<ScheduleHandle> {
-        self.state.bodies.index(body)?;
+        let index = self.state.bodies.index(body)?;
+        self.pushed(index);
         Ok(self.state.schedules.insert(Schedule { body, forces }))
     }
 

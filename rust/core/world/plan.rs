@@ -36,7 +36,7 @@ impl Plan {
             forces: bodies.forces.iter().any(|wrench| *wrench != Wrench::ZERO),
             ..Self::default()
         };
-        for (i, info) in bodies.infos.iter().enumerate() {
+        for (i, info) in bodies.infos.iter().enumerate().filter(|(i, _)| !contacts.is_asleep(*i)) {
             plan.resistance |= has_drag(info, settings.air) || is_damped(info);
             let dynamic = info.def.kind == BodyKind::Dynamic;
             let constant = settings.closed_form && !has_drag(info, settings.air);
@@ -50,8 +50,9 @@ impl Plan {
             }
         }
         if contacts.touchable() > 1 {
-            let moving =
-                (0..bodies.len()).filter(|i| bodies.infos[*i].def.kind != BodyKind::Static);
+            let moving = (0..bodies.len()).filter(|i| {
+                bodies.infos[*i].def.kind != BodyKind::Static && !contacts.is_asleep(*i)
+            });
             plan.colliding.extend(moving.filter(|i| contacts.can_touch(*i)).map(|i| i as u32));
         }
         plan
@@ -85,6 +86,17 @@ impl World {
             scratch.contacts.forget();
             Plan::new(state, fields.len())
         })
+    }
+
+    fn explain_sleep(&self, plan: &Plan, line: &mut dyn FnMut(&str, &str)) {
+        if !self.state.settings.sleeping {
+            return;
+        }
+        if plan.together > 0 {
+            line("sleep", "not while fields act");
+        } else {
+            line("sleep", &format!("{} asleep", count(self.asleep())));
+        }
     }
 
     /// The stages a step of this world runs, which bodies each moves and how, and the time of each in
@@ -136,6 +148,7 @@ impl World {
         if plan.closed.is_empty() && plan.damped.is_empty() && plan.runs().next().is_none() {
             line("advance", "nothing moves");
         }
+        self.explain_sleep(&plan, &mut line);
         line("report", "finite check, counters");
         if plan.colliding.is_empty() {
             line("not run", "detection: nothing here can collide");

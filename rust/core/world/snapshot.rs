@@ -27,7 +27,7 @@ struct Stored {
 }
 
 /// Changes with the layout of [`State`].
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 impl World {
     /// Keeps the world as it is.

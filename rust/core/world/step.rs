@@ -5,54 +5,13 @@ use std::time::Instant;
 
 use crate::body::Bodies;
 use crate::error::{Error, Result, check};
-use crate::forces::{Forces, Ledger};
-use crate::math::{Pose, Real, Twist, Wrench};
+use crate::forces::Forces;
+use crate::math::{Real, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, Watch};
-use crate::world::contacts::{Change, ContactBackup, Patch};
 use crate::world::{Clock, Plan, State, StepReport, World};
 
-/// The moving part of a world before a call, to go back to if the call fails.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Backup {
-    moving: Vec<(usize, Pose, Twist)>,
-    /// Forces for the next step; empty where there are none.
-    applied: Vec<Wrench>,
-    /// Contacts, where the plan looks for any.
-    contacts: Option<ContactBackup>,
-    clock: Clock,
-    ledger: Ledger,
-    /// What began or ended to touch and is not told yet.
-    changes: Vec<Change>,
-}
-
-/// The moving part of a world at the start of a step, to take the step again.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Start {
-    poses: Vec<Pose>,
-    twists: Vec<Twist>,
-    patches: Vec<Patch>,
-    clock: Clock,
-    ledger: Ledger,
-}
-
-impl Start {
-    fn save(&mut self, state: &State) {
-        self.poses.clone_from(&state.bodies.poses);
-        self.twists.clone_from(&state.bodies.twists);
-        self.patches.clone_from(&state.contacts.patches);
-        (self.clock, self.ledger) = (state.clock, state.ledger);
-    }
-
-    fn restore(&mut self, state: &mut State) {
-        state.bodies.poses.clone_from(&self.poses);
-        state.bodies.twists.clone_from(&self.twists);
-        state.contacts.patches.clone_from(&self.patches);
-        (state.clock, state.ledger) = (self.clock, self.ledger);
-    }
-}
-
-/// How often a step is taken because a body was thrown too far; the last time with what it got.
+/// How often a step is taken because a body was thrown too far or struck a sleeping one; the last time with what it got.
 const MOST_TRIES: u32 = 6;
 
 impl World {
@@ -109,11 +68,18 @@ impl World {
                 Ok(())
             })?;
         }
-        self.stage("report", |world| world.finish(dt))
+        self.stage("report", |world| world.finish(dt))?;
+        if self.may_sleep() {
+            self.stage("sleep", |world| {
+                world.fall_asleep(dt);
+                Ok(())
+            })?;
+        }
+        Ok(())
     }
 
     /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
-    /// the step is taken again with that in view.
+    /// or strikes what sleeps, the step is taken again with that in view, or awake.
     pub(super) fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
         let hits = self.events.hit.len();
         let mut spread = 0.0;
@@ -124,19 +90,29 @@ impl World {
                 Ok(())
             })?;
             let watched = self.scratch.contacts.watched;
-            if watched {
-                self.scratch.start.save(&self.state);
+            if let Some(plan) = self.plan.as_ref().filter(|_| watched) {
+                self.scratch.start.save(&self.state, plan);
             }
             self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
             let thrown = self.scratch.contacts.thrown;
-            if !watched || thrown == 0.0 || tries == MOST_TRIES {
+            let struck = self.state.contacts.struck(&self.state.bodies);
+            if !watched || (thrown == 0.0 && struck.is_empty()) || tries == MOST_TRIES {
+                self.wake_islands(&struck);
                 break;
             }
-            spread = 2.0 * thrown;
+            spread = if thrown > 0.0 { 2.0 * thrown } else { spread };
             self.scratch.start.restore(&mut self.state);
+            self.wake_islands(&struck);
+            self.planned();
             self.events.hit.truncate(hits);
         }
         Ok(())
+    }
+
+    /// Whether bodies can fall asleep. Fields act on all bodies at once, and always.
+    fn may_sleep(&self) -> bool {
+        let meets = |plan: &Plan| plan.together == 0 && !plan.colliding.is_empty();
+        self.state.settings.sleeping && self.plan.as_ref().is_some_and(meets)
     }
 
     /// Whether something can begin or end to touch in a step.
@@ -165,7 +141,7 @@ impl World {
         self.planned();
         self.strays.take();
         if let Some(plan) = &self.plan {
-            self.scratch.backup.save(&self.state, plan, self.applied);
+            self.scratch.backup.save(&mut self.state, plan, self.applied);
         }
         let report = std::mem::take(&mut self.report);
         self.events.clear();
@@ -174,7 +150,9 @@ impl World {
             self.applied = self.scratch.backup.restore(&mut self.state);
             self.report = report;
             self.events.clear();
+            self.plan = None;
         }
+        self.state.contacts.sleep.record(false);
         result
     }
 
@@ -331,44 +309,6 @@ fn is_finite(bodies: &Bodies, i: usize) -> bool {
     // One number stands for six: infinities and NaN survive a sum of absolute values.
     let sum = pose.position.x.abs() + pose.position.y.abs() + pose.angle.abs();
     (sum + twist.linear.x.abs() + twist.linear.y.abs() + twist.angular.abs()).is_finite()
-}
-
-impl Backup {
-    fn save(&mut self, state: &State, plan: &Plan, applied: bool) {
-        let bodies = &state.bodies;
-        self.moving.clear();
-        self.moving.extend(plan.moving().map(|i| (i, bodies.poses[i], bodies.twists[i])));
-        self.applied.clear();
-        if applied {
-            self.applied.extend_from_slice(&bodies.applied);
-        }
-        if plan.colliding.is_empty() {
-            self.contacts = None;
-        } else {
-            self.contacts.get_or_insert_default().save(&state.contacts);
-        }
-        (self.clock, self.ledger) = (state.clock, state.ledger);
-        self.changes.clear();
-        self.changes.extend_from_slice(state.contacts.touching.changes());
-    }
-
-    /// Puts the state back, and says whether forces wait for the next step.
-    fn restore(&self, state: &mut State) -> bool {
-        for &(i, pose, twist) in &self.moving {
-            (state.bodies.poses[i], state.bodies.twists[i]) = (pose, twist);
-        }
-        let applied = !self.applied.is_empty();
-        if applied {
-            state.bodies.applied.clone_from(&self.applied);
-        }
-        if let Some(contacts) = &self.contacts {
-            contacts.restore(&mut state.contacts);
-        }
-        (state.clock, state.ledger) = (self.clock, self.ledger);
-        state.contacts.touching.set_changes(&self.changes);
-        state.contacts.retell(state.bodies.handles());
-        applied
-    }
 }
 
 impl StepReport {

@@ -8,6 +8,7 @@ mod layout;
 mod random;
 mod refusals;
 mod sameness;
+mod sleepers;
 mod slivers;
 mod steps;
 
@@ -17,5 +18,6 @@ pub(super) use grazing::GRAZING;
 pub(super) use random::{ALL_RANDOM, RANDOM};
 pub(super) use refusals::{BAD_MATTER, BAD_OUTLINES};
 pub(super) use sameness::{OFFSET, REPEATS, SIZES};
+pub(super) use sleepers::SLEEPERS;
 pub(super) use slivers::SLIVERS;
 pub(super) use steps::STEPS;

@@ -1,9 +1,9 @@
 //! The stage that moves what touches: each group of bodies that contacts tie by the contact step.
 
-use super::FAR;
 use super::hooks::Answer;
 use super::near::Kind;
 use super::surroundings::{Fields, Still};
+use super::{Contacts, FAR};
 use crate::body::Bodies;
 use crate::collision::{Anchor, Collider, Manifold, Normal};
 use crate::constraints::contact::Block;
@@ -46,6 +46,16 @@ impl ContactScratch {
         self.moved.get(body).copied().unwrap_or(false)
     }
 
+    /// Number of groups.
+    pub fn groups(&self) -> usize {
+        self.islands.len()
+    }
+
+    /// Bodies of the links of a group.
+    pub fn links_of(&self, k: usize) -> impl Iterator<Item = [u32; 2]> {
+        self.islands.group(k).iter().map(|link| self.links[*link as usize])
+    }
+
     /// Forgets the groups, where there is nothing to look for.
     pub fn forget(&mut self) {
         self.islands.clear();
@@ -58,11 +68,18 @@ impl World {
     pub(in crate::world) fn find_islands(&mut self) {
         let Self { state, scratch, plan, .. } = self;
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
+        let gives_way = |i: u32| masses[i as usize].is_free() && !contacts.is_asleep(i as usize);
         let ContactScratch { islands, links, solid, moved, answers, thrown, watched, .. } =
             &mut scratch.contacts;
-        links.clear();
+        // What was marked in the last step, so that those that sleep cost nothing.
+        for i in links.drain(..).flatten() {
+            moved.get_mut(i as usize).into_iter().for_each(|moved| *moved = false);
+        }
         solid.clear();
-        moved.clear();
+        let fields = plan.as_ref().is_some_and(|plan| plan.together > 0);
+        if fields {
+            moved.clear();
+        }
         moved.resize(masses.len(), false);
         (*thrown, *watched) = (0.0, contacts.far);
         for (place, patch) in contacts.patches.iter().enumerate() {
@@ -75,16 +92,18 @@ impl World {
                 links.push(bodies);
                 *watched |= near.touch.restitution > 0.0;
                 solid.push(place as u32);
-                bodies.iter().for_each(|i| moved[*i as usize] = masses[*i as usize].is_free());
+                bodies.iter().for_each(|i| moved[*i as usize] = gives_way(*i));
+                // One that strikes a sleeping one takes the step again.
+                *watched |= bodies.iter().any(|i| contacts.is_asleep(*i as usize));
             }
         }
         // Fields act on all bodies at once, which then are one group.
-        let together = plan.as_ref().is_some_and(|plan| plan.together > 0) && !links.is_empty();
-        moved.iter_mut().for_each(|moved| *moved |= together);
+        let together = fields && !links.is_empty();
         if together {
+            moved.fill(true);
             islands.unite_all(links.len());
         } else {
-            islands.split(masses.len(), links, |body| masses[body as usize].is_free());
+            islands.split(masses.len(), links, gives_way);
         }
     }
 
@@ -118,7 +137,7 @@ impl World {
             if entry.0 != *mark {
                 *entry = (*mark, group.bodies.len() as u32);
                 let steady = steady.get(body as usize).copied().unwrap_or(Wrench::ZERO);
-                add_body(group, bodies, body, (settings.gravity, steady));
+                add_body(group, (bodies, contacts), body, (settings.gravity, steady));
                 group.reach.push(contacts.covered[body as usize]);
             }
             entry.1
@@ -234,12 +253,20 @@ impl World {
     }
 }
 
-fn add_body(group: &mut Group, bodies: &Bodies, body: u32, (gravity, steady): (Vec2, Wrench)) {
+fn add_body(
+    group: &mut Group,
+    (bodies, contacts): (&Bodies, &Contacts),
+    body: u32,
+    (gravity, steady): (Vec2, Wrench),
+) {
     let i = body as usize;
     let mass = &bodies.masses[i];
     let mut acceleration = mass.acceleration(&steady);
     acceleration.linear += gravity.component_mul(&mass.gravity_scale);
-    let velocity = Velocity::new(bodies.twists[i], mass);
+    let mut velocity = Velocity::new(bodies.twists[i], mass);
+    if contacts.is_asleep(i) {
+        (velocity.inverse_mass, velocity.inverse_inertia) = (Vec2::zeros(), 0.0);
+    }
     let fixed = velocity.is_fixed();
     group.driven |= fixed && velocity.twist != Twist::ZERO;
     group.bodies.push(body);

@@ -17,8 +17,8 @@ pub(in crate::world) struct ContactBackup {
 
 impl ContactBackup {
     /// Keeps the contacts as they are.
-    pub fn save(&mut self, contacts: &Contacts) {
-        self.broad.clone_from(&contacts.broad);
+    pub fn save(&mut self, contacts: &mut Contacts) {
+        contacts.broad.save_into(&mut self.broad);
         self.near.clone_from(&contacts.near);
         self.patches.clone_from(&contacts.patches);
         self.moved.clone_from(&contacts.moved);

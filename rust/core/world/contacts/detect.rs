@@ -8,7 +8,7 @@ use crate::body::{Bodies, Mixing, Role};
 use crate::collision::{Collider, Frame, Manifold, ProxyId, collide};
 use crate::constraints::contact::{Touch, moved};
 use crate::error::Result;
-use crate::math::{Real, Vec2};
+use crate::math::{Real, Twist, Vec2};
 use crate::world::World;
 
 impl World {
@@ -17,16 +17,32 @@ impl World {
     /// # Errors
     /// What a hook reports.
     pub(in crate::world) fn detect(&mut self, dt: Real, spread: Real) -> Result<()> {
+        let step = Step { dt, gravity: self.state.settings.gravity };
+        // What is about to be touched wakes, and may touch others that sleep.
+        loop {
+            let called = self.find_near(&step, spread)?;
+            if called.is_empty() {
+                return self.ask_before_solving();
+            }
+            self.wake_islands(&called);
+            self.planned();
+        }
+    }
+
+    /// Finds pairs and manifolds. Returns the sleeping islands that are about to be touched.
+    fn find_near(&mut self, step: &Step, spread: Real) -> Result<Vec<u32>> {
         let Self { state, plan, scratch, hooks, .. } = self;
-        let Some(plan) = plan else { return Ok(()) };
+        let Some(plan) = plan else { return Ok(Vec::new()) };
         let (contacts, bodies, settings) = (&mut state.contacts, &state.bodies, &state.settings);
         contacts.spread = spread;
-        let step = Step { dt, gravity: settings.gravity };
-        contacts.follow(bodies, &plan.colliding, &step);
+        contacts.follow(bodies, &plan.colliding, step);
         contacts.pair_up(bodies, &settings.mixing, hooks.as_deref())?;
         contacts.order(bodies, settings.gravity);
-        contacts.find_manifolds(bodies, &step, &mut scratch.contacts.found);
-        self.ask_before_solving()
+        contacts.find_manifolds(bodies, step, &mut scratch.contacts.found);
+        Ok(contacts.called(bodies, |i| {
+            let (way, turn) = step.motion(bodies, i);
+            Twist::new(way, turn * bodies.twists[i].angular.signum())
+        }))
     }
 }
 
@@ -79,11 +95,16 @@ impl Contacts {
         mixing: &Mixing,
         hooks: Option<&dyn ContactHooks>,
     ) -> Result<()> {
-        let Self { broad, entries, near, map, .. } = self;
+        let mut broad = std::mem::take(&mut self.broad);
+        let Self { entries, map, .. } = &*self;
         let allow = |a: ProxyId, b: ProxyId| {
             let [x, y] = [a, b].map(|proxy| &entries[proxy.0 as usize]);
             let [i, j] = [x, y].map(|entry| entry.collider.body as usize);
-            if i == j || !x.filter.allows(&y.filter) || map.contains(a, b) {
+            if i == j
+                || !x.filter.allows(&y.filter)
+                || map.contains(a, b)
+                || self.sleep_apart([i, j])
+            {
                 return false;
             }
             let sensors = [x, y].map(|entry| entry.role == Role::Sensor);
@@ -94,8 +115,9 @@ impl Contacts {
         };
         let mut new = Vec::new();
         broad.find_pairs(allow, |a, b| new.push([a, b]));
+        self.broad = broad;
         for proxies in new {
-            let [x, y] = proxies.map(|proxy| &entries[proxy.0 as usize]);
+            let [x, y] = proxies.map(|proxy| &self.entries[proxy.0 as usize]);
             if let Some(hooks) = hooks
                 && !allowed(hooks, bodies, [&x.collider, &y.collider])?
             {
@@ -106,17 +128,11 @@ impl Contacts {
                 (Role::OneWay(_), _) | (_, Role::OneWay(_)) => Kind::OneWay { solid: false },
                 _ => Kind::Solid,
             };
-            map.insert(proxies[0], proxies[1], 0);
+            self.map.insert(proxies[0], proxies[1], 0);
             let touch = touch(bodies, mixing, [&x.collider, &y.collider]);
-            near.push(Near {
-                proxies,
-                touch,
-                kind,
-                touching: false,
-                height: 0.0,
-                first: 0,
-                count: 0,
-            });
+            let pair =
+                Near { proxies, touch, kind, touching: false, height: 0.0, first: 0, count: 0 };
+            self.take_in(pair, bodies);
         }
         let parted =
             |pair: &Near, own: &Self| !own.broad.overlaps(pair.proxies[0], pair.proxies[1]);

@@ -146,6 +146,7 @@ impl World {
     /// # Errors
     /// What a hook reports; the world then keeps the hooks it had.
     pub fn set_hooks(&mut self, hooks: Option<Arc<dyn ContactHooks>>) -> Result<()> {
+        self.wake_all();
         let Self { state, .. } = self;
         state.contacts.ask_again(&state.bodies, hooks.as_deref())?;
         self.hooks = hooks;

@@ -9,6 +9,7 @@ mod events;
 mod hits;
 mod hooks;
 mod near;
+mod sleep;
 mod strays;
 mod surroundings;
 mod touching;
@@ -52,6 +53,8 @@ pub(super) struct Contacts {
     pub patches: Vec<Patch>,
     /// Length (s) of the substep that the remembered impulses are of.
     pub substep: Real,
+    /// What sleeps, and the pairs in which nothing moves.
+    pub sleep: sleep::Sleep,
     /// Shapes that touch.
     pub touching: touching::Touching,
     #[serde(skip)]
@@ -102,6 +105,7 @@ impl Contacts {
         self.of_body.push(Vec::new());
         self.frames.push(ORIGIN);
         self.covered.push(0.0);
+        self.sleep.push();
         self.insert(bodies, bodies.len() - 1);
     }
 
@@ -117,6 +121,7 @@ impl Contacts {
         self.of_body.swap_remove(body);
         self.frames.swap_remove(body);
         self.covered.swap_remove(body);
+        self.sleep.swap_remove(body);
         let last = self.of_body.len() as u32;
         self.moved.retain(|moved| *moved as usize != body);
         self.moved
@@ -162,7 +167,12 @@ impl Contacts {
 
     /// Derives the map of pairs.
     fn map_pairs(&mut self) {
-        self.map = self.near.iter().map(|near| (near.proxies[0], near.proxies[1])).collect();
+        self.map = self
+            .near
+            .iter()
+            .chain(self.sleep.near())
+            .map(|near| (near.proxies[0], near.proxies[1]))
+            .collect();
     }
 
     fn insert(&mut self, bodies: &Bodies, body: usize) {

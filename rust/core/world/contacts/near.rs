@@ -34,6 +34,13 @@ pub(in crate::world) struct Near {
     pub count: u32,
 }
 
+impl Near {
+    /// Places of its patches.
+    pub fn patches(&self) -> std::ops::Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
+    }
+}
+
 /// A manifold and what it remembers.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(in crate::world) struct Patch {
@@ -100,6 +107,6 @@ impl Contacts {
 
     /// The patches of a pair.
     pub fn patches_of(&self, near: &Near) -> &[Patch] {
-        &self.patches[near.first as usize..(near.first + near.count) as usize]
+        &self.patches[near.patches()]
     }
 }

@@ -220,7 +220,7 @@ impl Contacts {
     /// Derives which shapes touch from the pairs, and from what was not told yet.
     pub(in crate::world) fn retell(&mut self, handles: &[BodyHandle]) {
         let mut pairs: HashMap<ShapePair, Told, FxBuildHasher> = HashMap::default();
-        for near in self.near.iter().filter(|near| near.touching) {
+        for near in self.near.iter().chain(self.sleep.near()).filter(|near| near.touching) {
             let entry = pairs.entry(self.shapes_of(near, handles).0).or_default();
             *entry = Told { pieces: entry.pieces + 1, told: true };
         }

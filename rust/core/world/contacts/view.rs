@@ -115,9 +115,11 @@ impl Contacts {
         bodies: &'a Bodies,
         wanted: impl Fn(&Near) -> bool + 'a,
     ) -> impl Iterator<Item = Contact> + 'a {
-        let resists = |near: &&Near| near.touching && near.kind != Kind::Sensor;
-        let pairs = self.near.iter().filter(resists).filter(move |near| wanted(near));
-        let all = pairs.flat_map(|near| self.patches_of(near).iter().map(move |p| (near, p)));
+        let resists = |near: &Near| near.touching && near.kind != Kind::Sensor;
+        let awake = self.near.iter().map(|near| (near, self.patches_of(near)));
+        let pairs =
+            awake.chain(self.sleep.pairs()).filter(move |(near, _)| resists(near) && wanted(near));
+        let all = pairs.flat_map(|(near, patches)| patches.iter().map(move |p| (near, p)));
         let closed = |(near, patch): &(&Near, &Patch)| {
             near.count == 1 || patch.memory.impulse[0] + patch.memory.impulse[1] > 0.0
         };
@@ -153,7 +155,11 @@ impl World {
     pub fn overlaps_of(&self, body: BodyHandle) -> Result<Vec<(BodyHandle, usize)>> {
         let State { bodies, contacts, .. } = &self.state;
         bodies.index(body)?;
-        let sensed = contacts.near.iter().filter(|near| near.kind == Kind::Sensor && near.touching);
+        let sensed = contacts
+            .near
+            .iter()
+            .chain(contacts.sleep.near())
+            .filter(|near| near.kind == Kind::Sensor && near.touching);
         let mut found = Vec::new();
         for near in sensed {
             let pair = contacts.shapes_of(near, bodies.handles()).0;

@@ -53,6 +53,7 @@ pub struct QueryFilter<'a> {
 impl World {
     /// Takes note that the place of a body was set.
     pub(super) fn placed(&mut self, body: usize) {
+        self.disturbed(body);
         let State { contacts, bodies, .. } = &mut self.state;
         contacts.touch(body);
         if let Some(strays) = self.strays.get_mut() {

@@ -1,0 +1,97 @@
+//! What a call or a step changes, kept to go back to.
+
+use crate::forces::Ledger;
+use crate::math::{Pose, Real, Twist, Wrench};
+use crate::world::contacts::{Change, ContactBackup, Patch};
+use crate::world::{Clock, Plan, State};
+
+/// The moving part of a world before a call, to go back to if the call fails.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Backup {
+    moving: Vec<(usize, Pose, Twist)>,
+    /// For how long they have been slow.
+    slow: Vec<Real>,
+    /// Forces for the next step; empty where there are none.
+    applied: Vec<Wrench>,
+    /// Contacts, where the plan looks for any.
+    contacts: ContactBackup,
+    /// Whether it did.
+    collides: bool,
+    clock: Clock,
+    ledger: Ledger,
+    /// What began or ended to touch and is not told yet.
+    changes: Vec<Change>,
+}
+
+/// The moving part of a world at the start of a step, to take the step again.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Start {
+    moving: Vec<(usize, Pose, Twist)>,
+    patches: Vec<Patch>,
+    clock: Clock,
+    ledger: Ledger,
+}
+
+impl Start {
+    pub fn save(&mut self, state: &State, plan: &Plan) {
+        let bodies = &state.bodies;
+        self.moving.clear();
+        self.moving.extend(plan.moving().map(|i| (i, bodies.poses[i], bodies.twists[i])));
+        self.patches.clone_from(&state.contacts.patches);
+        (self.clock, self.ledger) = (state.clock, state.ledger);
+    }
+
+    pub fn restore(&self, state: &mut State) {
+        for &(i, pose, twist) in &self.moving {
+            (state.bodies.poses[i], state.bodies.twists[i]) = (pose, twist);
+        }
+        state.contacts.patches.clone_from(&self.patches);
+        (state.clock, state.ledger) = (self.clock, self.ledger);
+    }
+}
+
+impl Backup {
+    pub fn save(&mut self, state: &mut State, plan: &Plan, applied: bool) {
+        let bodies = &state.bodies;
+        self.moving.clear();
+        self.moving.extend(plan.moving().map(|i| (i, bodies.poses[i], bodies.twists[i])));
+        self.slow.clear();
+        self.slow.extend(plan.moving().map(|i| state.contacts.sleep.slow[i]));
+        self.applied.clear();
+        if applied {
+            self.applied.extend_from_slice(&bodies.applied);
+        }
+        if plan.colliding.is_empty() {
+            self.collides = false;
+        } else {
+            self.collides = true;
+            self.contacts.save(&mut state.contacts);
+        }
+        state.contacts.sleep.record(true);
+        (self.clock, self.ledger) = (state.clock, state.ledger);
+        self.changes.clear();
+        self.changes.extend_from_slice(state.contacts.touching.changes());
+    }
+
+    /// Puts the state back, and says whether forces wait for the next step.
+    pub fn restore(&self, state: &mut State) -> bool {
+        state.contacts.sleep.undo(&mut state.bodies);
+        for &(i, pose, twist) in &self.moving {
+            (state.bodies.poses[i], state.bodies.twists[i]) = (pose, twist);
+        }
+        for (&(i, ..), slow) in self.moving.iter().zip(&self.slow) {
+            state.contacts.sleep.slow[i] = *slow;
+        }
+        let applied = !self.applied.is_empty();
+        if applied {
+            state.bodies.applied.clone_from(&self.applied);
+        }
+        if self.collides {
+            self.contacts.restore(&mut state.contacts);
+        }
+        (state.clock, state.ledger) = (self.clock, self.ledger);
+        state.contacts.touching.set_changes(&self.changes);
+        state.contacts.retell(state.bodies.handles());
+        applied
+    }
+}
