@@ -1,6 +1,8 @@
 //! Runs scenes and prints what was asked and measured, as Markdown: those that take minutes, for
 //! `make test-full`, or those of the catalogue that are named. A number is a time (s) after which no further one is begun.
 
+#![allow(clippy::print_stdout)] // its output is what it is for
+
 use std::fs;
 use std::process::ExitCode;
 use std::thread::available_parallelism;

@@ -151,6 +151,7 @@ impl World {
     /// The first shape that `shape` hits, moved from `position` and `angle` along `translation` (m) without
     /// turning; None if the way is free. What it overlaps at the start it hits at fraction 0.
     #[pyo3(signature = (shape, translation, *, position=ORIGIN, angle=0.0, **seen))]
+    #[allow(clippy::too_many_arguments, reason = "one keyword each in Python")]
     fn cast_shape(
         slf: &Bound<'_, Self>,
         shape: &Bound<'_, Shape>,
@@ -169,6 +170,7 @@ impl World {
 
     /// All shapes that `shape` would hit on that way if nothing stopped it, in the order of the way.
     #[pyo3(signature = (shape, translation, *, position=ORIGIN, angle=0.0, **seen))]
+    #[allow(clippy::too_many_arguments, reason = "one keyword each in Python")]
     fn cast_shape_all(
         slf: &Bound<'_, Self>,
         shape: &Bound<'_, Shape>,

@@ -9,7 +9,7 @@ use crate::common::{
 
 fn reach(geometry: &Geometry) -> f64 {
     let convex = convex(geometry);
-    convex.vertices.iter().map(|v| v.norm()).fold(0.0, f64::max) + convex.radius
+    convex.vertices.iter().map(culbuto::math::Vec2::norm).fold(0.0, f64::max) + convex.radius
 }
 
 proptest! {

@@ -215,9 +215,9 @@ fn remember(block: &mut Block, before: &Manifold, manifold: &Manifold) {
     let old = block.impulse;
     block.impulse = [0.0; 3];
     for k in 0..manifold.count {
-        for j in 0..before.count {
-            if manifold.anchors[k].feature == before.anchors[j].feature {
-                block.impulse[k] = old[j];
+        for (anchor, impulse) in before.anchors.iter().zip(old).take(before.count) {
+            if manifold.anchors[k].feature == anchor.feature {
+                block.impulse[k] = impulse;
             }
         }
     }
