@@ -804,7 +804,7 @@ class Body:
     def torque(self, value: float, /) -> None: ...
     @property
     def asleep(self) -> bool:
-        """Whether the body sleeps: it rests, and is left out of the work until something wakes it."""
+        """Whether the body sleeps: it rests and is left out until something wakes it."""
     @property
     def kinetic_energy(self) -> float:
         """½mv² + ½Iω² (J); 0 of a body that does not answer to forces."""
@@ -973,7 +973,8 @@ class Body:
     def sleep(self) -> None:
         """Lets the body sleep with all that it touched after the last step and that can move.
 
-        They stop, and what that takes counts as dissipated. Nothing happens where sleeping is off or a field acts.
+        They stop, and what that takes counts as dissipated. Nothing happens where sleeping is
+        off or a field acts.
         """
     def distance_to(self, other: Body) -> Distance:
         """How far another body is, and where the two are nearest.

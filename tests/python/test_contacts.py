@@ -151,7 +151,7 @@ def test_a_collision_filter() -> None:
     assert box.position.y < 0.4
     twin = copy.copy(world)
     assert twin.collision_filter is allow
-    assert pickle.loads(pickle.dumps(cb.World())).collision_filter is None
+    assert pickle.loads(pickle.dumps(cb.World())).collision_filter is None  # noqa: S301
     world.collision_filter = None
     with pytest.raises(TypeError, match="function"):
         world.collision_filter = 3  # type: ignore[assignment]
@@ -171,7 +171,7 @@ def test_pre_solve_changes_and_disables() -> None:
     world.pre_solve = smooth
     world.step(DT, steps=30)
     assert box.velocity.x == pytest.approx(3, abs=1e-12)
-    world.pre_solve = lambda contact: False
+    world.pre_solve = lambda _: False
     world.step(DT, steps=30)
     assert box.position.y < 0
 
@@ -180,7 +180,7 @@ def test_hooks_that_fail_stop_the_step_and_change_nothing() -> None:
     world, _, box = scene(position=(0, 0.6))
     world.step(DT)
 
-    def touch(contact: cb.PreSolve) -> None:
+    def touch(_: cb.PreSolve) -> None:
         box.position = (0, 3)
 
     def spoil(contact: cb.PreSolve) -> None:
@@ -220,7 +220,7 @@ def test_a_one_way_platform_lets_through_from_below() -> None:
     ball = world.add_body(cb.Circle(0.25), position=(0, -2), velocity=(0, 8))
     world.step(DT, steps=200)
     assert ball.position.y == pytest.approx(0.25, abs=1e-3)
-    world.pre_solve = lambda contact: False
+    world.pre_solve = lambda _: False
     world.step(DT)
     world.pre_solve = None
     world.step(DT, steps=30)
@@ -230,8 +230,8 @@ def test_a_one_way_platform_lets_through_from_below() -> None:
 def test_a_world_with_hooks_that_know_it_is_freed() -> None:
     def make() -> weakref.ref[cb.World]:
         world, _, box = scene()
-        world.pre_solve = lambda contact: world is not None
-        world.on_hit(lambda event: box.remove())
+        world.pre_solve = lambda _: world is not None
+        world.on_hit(lambda _: box.remove())
         world.step(DT)
         return weakref.ref(world)
 
