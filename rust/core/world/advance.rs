@@ -81,7 +81,7 @@ impl World {
         })
     }
 
-    fn advance_to_tolerance(
+    pub(super) fn advance_to_tolerance(
         &mut self,
         span: Span,
         tolerance: Real,

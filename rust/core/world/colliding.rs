@@ -1,4 +1,4 @@
-//! Time to a tolerance where bodies can meet: the steps of a fixed step, each taken twice.
+//! Time to a tolerance where bodies can meet: free motion while nothing is near, else steps that are each taken twice.
 
 use crate::error::{Error, Result};
 use crate::math::{Pose, Real};
@@ -35,7 +35,12 @@ impl World {
                     break;
                 }
                 let stop = times.get(next).copied().unwrap_or(duration).min(duration);
-                let (taken, proposed) = world.step_doubled(step.min(stop - passed), tolerance)?;
+                let dt = step.min(stop - passed);
+                let (taken, proposed) = if world.step_apart(dt, tolerance, watch)? {
+                    (dt, 2.0 * dt)
+                } else {
+                    world.step_doubled(dt, tolerance)?
+                };
                 // What is left before a stop by rounding is none.
                 passed =
                     if stop - (passed + taken) <= 1e-12 * duration { stop } else { passed + taken };
@@ -48,6 +53,26 @@ impl World {
             trajectory.shift(start);
             Ok(trajectory)
         })
+    }
+
+    /// One step in which nothing comes near anything else, by the methods of free motion; false, and nothing done, if
+    /// something may.
+    fn step_apart(&mut self, dt: Real, tolerance: Real, watch: &mut Watch<'_>) -> Result<bool> {
+        let before = self.state.clone();
+        self.detect(dt, 0.0)?;
+        self.find_islands();
+        if self.scratch.contacts.is_idle() {
+            let (start, mut none) = (self.time(), Trajectory::new(Vec::new(), &self.state.bodies));
+            self.each_span(dt, |world, span| {
+                world.advance_to_tolerance(span, tolerance, (start, &mut none), watch)
+            })?;
+            // Detection foresaw the ways by velocity and gravity; other forces may have led farther.
+            if self.state.contacts.foresaw(&before.bodies, &self.state.bodies) {
+                return Ok(true);
+            }
+        }
+        self.go_back(&before);
+        Ok(false)
     }
 
     /// One step of at most `dt` to a tolerance; returns its length and a length for the next (s).

@@ -56,6 +56,11 @@ impl ContactScratch {
         self.islands.group(k).iter().map(|link| self.links[*link as usize])
     }
 
+    /// Whether nothing touches or may touch in the step.
+    pub fn is_idle(&self) -> bool {
+        self.islands.is_empty()
+    }
+
     /// Forgets the groups, where there is nothing to look for.
     pub fn forget(&mut self) {
         self.islands.clear();

@@ -95,6 +95,14 @@ impl Contacts {
         self.of_body[body].iter().map(filter).any(|filter| filter.mask != 0 || filter.group > 0)
     }
 
+    /// Whether no body that can touch others went farther than the last detection looked.
+    pub fn foresaw(&self, before: &Bodies, after: &Bodies) -> bool {
+        (0..self.of_body.len()).filter(|body| self.can_touch(*body)).all(|i| {
+            let way = after.poses[i].position - before.poses[i].position;
+            way.norm() <= self.covered[i]
+        })
+    }
+
     /// Whether a body has shapes.
     pub fn has_shapes(&self, body: usize) -> bool {
         !self.of_body[body].is_empty()
