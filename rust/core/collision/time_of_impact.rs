@@ -98,7 +98,7 @@ const PRECISION: Real = 1e-3;
 /// Of all lengths together, what rounding may lose.
 const ROUNDING: Real = 64.0 * Real::EPSILON;
 /// Number of distances measured, at most.
-const MOST_STEPS: u32 = 4000;
+const MOST_STEPS: u32 = 1000;
 
 /// How B moves as seen from A, along the axes of the world.
 struct Motion {

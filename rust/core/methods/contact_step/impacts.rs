@@ -165,7 +165,7 @@ fn strike_all(
         queue.extend(next_event(group, (watch, around), *k, to));
     }
     // Enough for every pair to meet many times; what a collapse leaves is for the rows.
-    let mut left = 64 + 32 * watch.blocks.len();
+    let mut left = 64 + 8 * watch.blocks.len();
     while let Some(event) = queue.pop() {
         let bodies = group.blocks[event.block as usize].bodies;
         if event.stamp != watch.stamp(bodies) {

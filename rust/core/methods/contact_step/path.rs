@@ -77,7 +77,7 @@ impl Pair<'_> {
         around: &dyn Surroundings,
     ) -> Option<(Arrival, Manifold)> {
         // Enough to halve distances down to rounding, and for a few turns between.
-        const TRIES: u32 = 64;
+        const TRIES: u32 = 24;
         let mut target = NEAR * self.link.width;
         let mut time = from;
         for _ in 0..TRIES {
