@@ -29,9 +29,7 @@ fn world() -> (World, BodyHandle) {
     let rod = BodyDef::new(Shape::rectangle(1.0, 0.2).unwrap());
     let body = world.add_body(BodyDef { velocity: vec2(1.0, 2.0), ..rod.clone() }).unwrap();
     let beside = vec2(0.0, -2.0);
-    world
-        .add_body(BodyDef { kind: BodyKind::Static, position: beside, ..rod.clone() })
-        .unwrap();
+    world.add_body(BodyDef { kind: BodyKind::Static, position: beside, ..rod.clone() }).unwrap();
     let locks = Locks { x: true, ..Locks::default() };
     world.add_body(BodyDef { locks, position: vec2(3.0, 0.0), ..rod }).unwrap();
     let forces = ForceSchedule::new(vec![0.0, 0.05, 1.0], vec![Wrench::ZERO; 2]).unwrap();

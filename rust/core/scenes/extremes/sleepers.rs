@@ -20,7 +20,7 @@ pub static SLEEPERS: Scene = Scene {
 
 fn numbers() -> Result<Vec<Number>> {
     let (few, _) = work(0)?;
-    let (many, awake) = work(200)?;
+    let (many, awake) = work(25)?;
     Ok(vec![
         at_most("bodies awake beside the ball", awake as Real - 1.0, 0.0),
         at_most("sweeps more than of the ball alone", many.0 as Real - few.0 as Real, 0.0),
