@@ -63,7 +63,7 @@ pub struct Impact {
 /// nearer at once; None if they stay farther apart.
 ///
 /// It is met to a thousandth of `target`, but no better than positions are known, and never passed by more. If
-/// that takes more than a thousand steps, the fraction up to which the shapes surely stay apart is returned.
+/// that takes more than some thousand steps, the fraction up to which the shapes surely stay apart is returned.
 #[must_use]
 pub fn time_of_impact(
     a: &Collider,
@@ -98,7 +98,7 @@ const PRECISION: Real = 1e-3;
 /// Of all lengths together, what rounding may lose.
 const ROUNDING: Real = 64.0 * Real::EPSILON;
 /// Number of distances measured, at most.
-const MOST_STEPS: u32 = 1000;
+const MOST_STEPS: u32 = 4000;
 
 /// How B moves as seen from A, along the axes of the world.
 struct Motion {
