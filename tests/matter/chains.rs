@@ -28,7 +28,7 @@ proptest! {
 
         let bounds = links.iter().map(Shape::bounds).reduce(|a, b| a.merged(&b)).unwrap();
         prop_assert_eq!(chain.bounds(), bounds);
-        let farthest = points.iter().map(culbuto::math::Vec2::norm).fold(0.0, Real::max);
+        let farthest = points.iter().map(Vec2::norm).fold(0.0, Real::max);
         prop_assert_eq!(chain.extent_from(vec2(0.0, 0.0)), farthest);
         prop_assert!(chain.is_wire() && chain.area() == 0.0 && !chain.contains(points[0]));
         prop_assert!(chain.convex_pieces().is_empty());
