@@ -24,11 +24,11 @@ TOLERANCES = tuple(10.0**-k for k in range(2, 13))
 class Row:
     """One run of one scene by one method.
 
-    Either `step` (s) or `tolerance` is given. `method` is "closed_form" for the exact solution of
-    constant forces, "contact_step" for a scene with contacts. `error` is the largest over times
-    and bodies, relative to the scene's length, infinite where the run diverged; `seconds` the median wall time of a run, `seconds_per_second`
-    that for each simulated second; `energy` the change of the energy balance over the largest
-    kinetic energy.
+    Either `step` (s) or `tolerance` is given. `method` is "closed_form" for the exact solution
+    of constant forces, "contact_step" for a scene with contacts. `error` is the largest over
+    times and bodies, relative to the scene's length, infinite where the run diverged; `seconds`
+    the median wall time of a run, `seconds_per_second` that for each simulated second; `energy`
+    the change of the energy balance over the largest kinetic energy.
     """
 
     scene: str
