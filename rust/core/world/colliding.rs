@@ -8,6 +8,9 @@ use crate::world::{State, Trajectory, World};
 /// Steps that were tried in a row before the tolerance is said to be out of reach.
 const MOST_TRIES: u32 = 60;
 
+/// Steps of a call before the same is said.
+const MOST_STEPS: usize = 4000;
+
 impl World {
     /// [`World::advance_watched`] where bodies can meet. Each step is taken with n and with 2n substeps; their
     /// difference over 2² − 1 estimates the error of the finer one, which is kept (Richardson; the contact step is of second order
@@ -24,7 +27,7 @@ impl World {
             let mut trajectory = Trajectory::new(times.to_vec(), &world.state.bodies);
             world.report.estimate = Some(0.0);
             let (mut passed, mut step) = (0.0, duration / 16.0);
-            let mut next = 0;
+            let (mut next, mut steps) = (0, 0_usize);
             loop {
                 while next < times.len() && times[next] <= passed {
                     let bodies = &world.state.bodies;
@@ -35,6 +38,13 @@ impl World {
                     break;
                 }
                 let stop = times.get(next).copied().unwrap_or(duration).min(duration);
+                steps += 1;
+                if steps > MOST_STEPS + times.len() {
+                    let why = format!(
+                        "{MOST_STEPS} steps were not enough where bodies meet; ask for less"
+                    );
+                    return Err(Error::Tolerance { tolerance, time: world.time(), why });
+                }
                 let dt = step.min(stop - passed);
                 let (taken, proposed) = if world.step_apart(dt, tolerance, watch)? {
                     (dt, 2.0 * dt)
