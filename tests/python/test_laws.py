@@ -46,7 +46,7 @@ class Bodies:
         for x, y, angle, u, v, spin, mass in self.rows.tolist():
             world.add_body(
                 cb.Box(0.4, 0.2), position=(x, y), angle=angle, velocity=(u, v),
-                angular_velocity=spin, mass=mass,
+                angular_velocity=spin, mass=mass, mask=0,  # free motion: they touch nothing
             )  # fmt: skip
         return world
 

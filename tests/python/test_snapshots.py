@@ -177,7 +177,9 @@ class Bodies(RuleBasedStateMachine):
     @rule(mass=st.integers(1, 5), velocity=vectors, position=vectors)
     def add(self, mass: int, velocity: Any, position: Any) -> None:
         self.bodies.append(
-            self.world.add_body(cb.Circle(1), mass=mass, velocity=velocity, position=position)
+            self.world.add_body(
+                cb.Circle(1), mass=mass, velocity=velocity, position=position, mask=0
+            )
         )
         self.momentum += mass * np.array(velocity)
 
