@@ -63,7 +63,14 @@ def order(row: MethodCheck) -> str:
 
 def worst(checks: Iterable[Check]) -> Check:
     """The check that comes nearest to what is asked, or fails most."""
-    return max(checks, key=lambda check: check.measured / check.asked)
+
+    def share(check: Check) -> float:
+        """Of what is asked; what asks for 0 is met or missed without a measure."""
+        if check.asked == 0:
+            return 0.0 if check.measured == 0 else math.inf
+        return check.measured / check.asked
+
+    return max(checks, key=share)
 
 
 def mark(method: str) -> str:
