@@ -207,7 +207,7 @@ fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
 
 /// A contact that persists leaves as fast as it came, but for the change of its curvature. One that should leave
 /// faster than this many times that does not persist: pushed so, it would gain energy.
-const PERSISTS: Real = 1.5;
+const PERSISTS: Real = 1.02;
 
 /// Velocity of row k that a kick of length h gives.
 fn kicked(block: &Block, k: usize, [a, b]: [&Place; 2], h: Real) -> Real {
