@@ -89,7 +89,7 @@ proptest! {
 
     #[test]
     fn collisions_without_gravity_only_take_energy_and_book_it(bodies in rush(5), law in laws()) {
-        energy_is_accounted_for(&mut weightless(&bodies, law), 60, 1e-6)?;
+        energy_is_accounted_for(&mut weightless(&bodies, law), 60, 1e-10)?;
     }
 }
 
@@ -100,7 +100,7 @@ proptest! {
     fn piles_that_fall_only_take_energy_and_book_it(bodies in rush(8), law in laws()) {
         let mut world = bin(&bodies);
         world.set_impact_law(law);
-        energy_is_accounted_for(&mut world, 120, 1e-6)?;
+        energy_is_accounted_for(&mut world, 120, 1e-10)?;
     }
 
     /// Restitution 1 and no friction: nothing is gained. In most scenes the energy stays to 1e-15, but where other corners
