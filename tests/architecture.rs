@@ -10,6 +10,7 @@ const LAYERS: &[&[&str]] = &[
     &["arena"],
     &["shapes"],
     &["body"],
+    &["joint"],
     &["collision"],
     &["forces", "constraints"],
     &["solvers"],

@@ -30,7 +30,7 @@
 //!
 //! # Map
 //!
-//! From the ground up: [`math`], [`error`], [`arena`], [`shapes`], [`body`], [`collision`], [`forces`], [`methods`],
+//! From the ground up: [`math`], [`error`], [`arena`], [`shapes`], [`body`], [`joint`], [`collision`], [`forces`], [`methods`],
 //! [`world`], [`observe`], [`scenes`], [`report`]. [`docs`] holds the guide, the architecture and the
 //! decisions.
 
@@ -41,6 +41,7 @@ pub mod constraints;
 pub mod error;
 pub mod forces;
 pub mod islands;
+pub mod joint;
 pub mod math;
 pub mod methods;
 pub mod observe;
@@ -52,6 +53,7 @@ pub mod world;
 
 pub use body::{BodyDef, BodyHandle, BodyKind, Part};
 pub use error::{Error, Result};
+pub use joint::{JointDef, JointHandle};
 pub use world::World;
 
 /// The pages of the documentation.

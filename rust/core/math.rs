@@ -13,10 +13,19 @@ pub type Real = f64;
 /// A vector or a point in the plane (SI units, y up).
 pub type Vec2 = nalgebra::Vector2<Real>;
 
+/// π.
+pub const PI: Real = std::f64::consts::PI;
+
 /// The vector (x, y).
 #[must_use]
 pub const fn vec2(x: Real, y: Real) -> Vec2 {
     Vec2::new(x, y)
+}
+
+/// The vector (0, 0), for what is left out of a file.
+#[must_use]
+pub(crate) const fn zero() -> Vec2 {
+    vec2(0.0, 0.0)
 }
 
 /// z component of the cross product a × b: positive when b lies counter-clockwise of a.
@@ -35,6 +44,18 @@ pub fn perp(v: Vec2) -> Vec2 {
 #[must_use]
 pub fn sin_cos(angle: Real) -> (Real, Real) {
     libm::sincos(angle)
+}
+
+/// Cosine of an angle in radians.
+#[must_use]
+pub fn cos(angle: Real) -> Real {
+    libm::cos(angle)
+}
+
+/// The largest whole number that is not above x.
+#[must_use]
+pub fn floor(x: Real) -> Real {
+    libm::floor(x)
 }
 
 /// Angle of a vector against +x, in (−π, π].

@@ -13,7 +13,7 @@ use crate::world::World;
 pub struct Energy {
     /// Σ ½mv² + ½Iω².
     pub kinetic: Real,
-    /// In gravity, against the origin, and in fields that have a potential.
+    /// In gravity, against the origin, in the springs of joints, and in fields that have a potential.
     pub potential: Real,
     /// Done on the bodies by forces without a potential, since the world was made.
     pub work: Real,
@@ -50,6 +50,7 @@ impl World {
             -mass.mass * gravity.component_mul(&mass.gravity_scale).dot(&pose.position)
         };
         let mut potential: Real = self.dynamic().map(in_gravity).sum();
+        potential += self.spring_energy();
         for field in self.fields() {
             let own = field.potential(self.time(), &self.columns());
             potential += own.map_err(failed(field.as_ref()))?.unwrap_or(0.0);

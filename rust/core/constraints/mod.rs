@@ -2,6 +2,7 @@
 //! impulse.
 
 pub mod contact;
+pub mod joint;
 mod motion;
 
 pub use motion::{Place, Velocity};

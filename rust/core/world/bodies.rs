@@ -22,12 +22,13 @@ impl World {
         Ok(handle)
     }
 
-    /// Removes a body and the schedules on it. The last body takes its place in body order.
+    /// Removes a body, the schedules on it and its joints. The last body takes its place in body order.
     pub fn remove_body(&mut self, body: BodyHandle) -> Result<()> {
         let index = self.state.bodies.index(body)?;
         self.disturbed(index);
         self.forget_strays(index);
         self.state.contacts.remove(&self.state.bodies, index);
+        self.unjoin(body);
         self.state.bodies.remove(body)?;
         self.state.schedules.retain(|schedule| schedule.body != body);
         self.plan = None;

@@ -6,6 +6,7 @@ mod bodies;
 mod colliding;
 mod columns;
 mod contacts;
+mod joints;
 mod plan;
 mod queries;
 mod report;
@@ -17,6 +18,7 @@ mod stepper;
 pub use bodies::{BodyMut, BodyRef};
 pub use columns::Column;
 pub use contacts::{Contact, ContactEvent, ContactHooks, Events, PreSolve, ShapeView};
+pub use joints::JointRef;
 pub use plan::Plan;
 pub use queries::{Nearest, QueryFilter, RayHit, ShapeId, distance_between};
 pub use report::{StageTime, StepReport, Trajectory};
@@ -32,6 +34,7 @@ use crate::body::{Bodies, ImpactLaw, Mixing};
 use crate::error::{Error, Result, check};
 use crate::forces::{Air, Field, FieldHandle, ForceBuffers, ForceField, ForceSchedule, Ledger};
 use crate::forces::{Schedule, ScheduleHandle};
+use crate::joint::Joint;
 use crate::math::{Real, Vec2, vec2};
 use crate::methods::{self, Method, Scratch};
 
@@ -99,6 +102,7 @@ struct State {
     settings: Settings,
     bodies: Bodies,
     contacts: contacts::Contacts,
+    joints: Arena<Joint>,
     schedules: Arena<Schedule>,
     field_map: HandleMap<Field>,
     clock: Clock,

@@ -27,7 +27,7 @@ struct Stored {
 }
 
 /// Changes with the layout of [`State`].
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 impl World {
     /// Keeps the world as it is.

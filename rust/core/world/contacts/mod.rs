@@ -143,6 +143,12 @@ impl Contacts {
         }
     }
 
+    /// What a body may touch is looked for anew.
+    pub fn look_anew(&mut self, body: usize) {
+        self.of_body[body].iter().for_each(|proxy| self.broad.touch(*proxy));
+        self.touch(body);
+    }
+
     /// Tells that the place of a body was set.
     pub fn touch(&mut self, body: usize) {
         if !self.has_shapes(body) {

@@ -1,0 +1,118 @@
+//! From a definition to a joint: what was left open is taken from where the bodies stand.
+
+use super::{law_of, pair_of};
+use crate::body::Bodies;
+use crate::constraints::joint::{Action, Law, Pair};
+use crate::error::{Error, Result};
+use crate::joint::{Given, Joint, JointDef, JointKind, ROWS};
+use crate::math::{Pose, Real, Wrench, floor};
+
+/// Checks a definition and makes the joint.
+pub(super) fn joint(bodies: &Bodies, mut def: JointDef) -> Result<Joint> {
+    def.validated()?;
+    let places = places(bodies, &def)?;
+    let frames = places.map(|i| i.map_or(Pose::IDENTITY, |i| bodies.origin(i)));
+    for (anchor, frame) in def.anchors.iter_mut().zip(&frames) {
+        if let Given::World(point) = *anchor {
+            *anchor = Given::Local(frame.apply_inverse(point));
+        }
+    }
+    if let Some(axis) = def.axis_mut() {
+        let local = match *axis {
+            Given::Local(direction) => direction,
+            Given::World(direction) => frames[0].rot().apply_inverse(direction),
+        };
+        *axis = Given::Local(local.normalize());
+    }
+    let mut joint = Joint {
+        def,
+        springs: [None; ROWS],
+        impulses: [0.0; ROWS],
+        substep: 0.0,
+        reaction: Wrench::ZERO,
+        notch: 0.0,
+    };
+    let pair = pair_of(bodies, &joint);
+    close(&mut joint, bodies, &pair);
+    tune(&mut joint, bodies, &pair);
+    Ok(joint)
+}
+
+/// Places of the bodies: two different ones, of which at least one can move.
+fn places(bodies: &Bodies, def: &JointDef) -> Result<[Option<usize>; 2]> {
+    let mut places = [None; 2];
+    for (place, body) in places.iter_mut().zip(def.bodies) {
+        *place = body.map(|body| bodies.index(body)).transpose()?;
+    }
+    if places[0] == places[1] {
+        let got = if places[0].is_some() { "the same body twice" } else { "the world twice" };
+        return Err(Error::invalid("the bodies of a joint", got, "two different bodies"));
+    }
+    if !places.iter().flatten().any(|i| bodies.masses[*i].is_free()) {
+        let allowed = "at least one dynamic body with an axis that is not locked";
+        return Err(Error::invalid("the bodies of a joint", "two that nothing can move", allowed));
+    }
+    Ok(places)
+}
+
+/// Takes what was left open from where the bodies stand.
+fn close(joint: &mut Joint, bodies: &Bodies, pair: &Pair) {
+    let angle = pair.angles[1] - pair.angles[0];
+    let anchors = [0, 1].map(|side| {
+        let law = law_of(bodies, joint);
+        pair.centers[side] + pair.rots[side].apply(law.arms[side])
+    });
+    let apart = anchors[1] - anchors[0];
+    match &mut joint.def.kind {
+        JointKind::Distance { length, .. } => {
+            length.get_or_insert(apart.norm());
+        }
+        JointKind::Revolute { angle: own, .. }
+        | JointKind::Prismatic { angle: own, .. }
+        | JointKind::Weld { angle: own, .. }
+        | JointKind::Motor { angle: own, .. }
+        | JointKind::AngleSpring { angle: own, .. } => {
+            own.get_or_insert(angle);
+        }
+        JointKind::Gear { ratio, phase } => {
+            phase.get_or_insert(*ratio * pair.angles[0] + pair.angles[1]);
+        }
+        JointKind::Pulley { over, ratio, length, .. } => {
+            let ropes = [0, 1].map(|k| (anchors[k] - (over[k] - pair.origin)).norm());
+            length.get_or_insert(ropes[0] + *ratio * ropes[1]);
+        }
+        JointKind::Rack { axis, radius, offset } => {
+            let way = pair.rots[0].apply(axis.vector()).dot(&apart);
+            offset.get_or_insert(way - *radius * angle);
+        }
+        JointKind::Ratchet { step, phase } => joint.notch = notch(angle, *step, *phase),
+        JointKind::Wheel { .. }
+        | JointKind::Grab { .. }
+        | JointKind::Friction { .. }
+        | JointKind::Filter => {}
+    }
+}
+
+/// The last notch that an angle has passed.
+pub(in crate::world) fn notch(angle: Real, step: Real, phase: Real) -> Real {
+    phase + floor((angle - phase) / step) * step
+}
+
+/// Springs by frequency get their coefficients from the effective mass 1/(J M⁻¹ Jᵀ) of their rows.
+fn tune(joint: &mut Joint, bodies: &Bodies, pair: &Pair) {
+    let law: Law = law_of(bodies, joint);
+    let masses = [0, 1].map(|side| super::index_of(bodies, joint, side).map(|i| &bodies.masses[i]));
+    for (k, row) in law.rows(pair).as_slice().iter().enumerate() {
+        let (Action::Spring(_), Some(spring)) = (row.action, joint.def.kind.spring(k)) else {
+            continue;
+        };
+        let response = |side: usize| {
+            let [x, y, turn] = row.jacobian[side];
+            masses[side].map_or(0.0, |mass| {
+                x * x * mass.inverse.x + y * y * mass.inverse.y + turn * turn * mass.inverse_inertia
+            })
+        };
+        let sum: Real = response(0) + response(1);
+        joint.springs[k] = Some(spring.coefficients(if sum > 0.0 { 1.0 / sum } else { 0.0 }));
+    }
+}

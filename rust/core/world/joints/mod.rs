@@ -1,0 +1,243 @@
+//! Joints of a world: made, read, changed, removed.
+
+mod make;
+
+use crate::body::{Bodies, BodyHandle};
+use crate::constraints::joint::{Action, Law, Pair, Rows};
+use crate::error::Result;
+use crate::joint::{Joint, JointDef, JointHandle, JointKind};
+use crate::math::{Real, Rot, Twist, Vec2, Wrench, vec2};
+use crate::world::World;
+
+/// Adding, removing and changing joints.
+impl World {
+    /// Adds a joint. What its definition leaves open is taken from where the bodies stand.
+    ///
+    /// # Errors
+    /// [`crate::Error::Invalid`] for a number that is not allowed, one body twice, or no body that can move;
+    /// [`crate::Error::StaleHandle`] for a body that is gone. The world stays as it was.
+    pub fn add_joint(&mut self, def: JointDef) -> Result<JointHandle> {
+        let joint = make::joint(&self.state.bodies, def)?;
+        let bodies = joint.def.bodies;
+        let handle = self.state.joints.insert(joint);
+        self.rejoin(bodies);
+        Ok(handle)
+    }
+
+    /// Removes a joint.
+    pub fn remove_joint(&mut self, joint: JointHandle) -> Result<()> {
+        let joint = self.state.joints.remove(joint)?;
+        self.rejoin(joint.def.bodies);
+        Ok(())
+    }
+
+    /// A joint, to read.
+    pub fn joint(&self, joint: JointHandle) -> Result<JointRef<'_>> {
+        Ok(JointRef { bodies: &self.state.bodies, joint: self.state.joints.get(joint)? })
+    }
+
+    /// Changes a joint: `edit` works on a copy of its definition, and nothing changes if the result is not allowed.
+    /// Springs that change take the bodies' places and masses of now for their effective mass.
+    ///
+    /// # Errors
+    /// Those of [`World::add_joint`].
+    pub fn edit_joint(
+        &mut self,
+        joint: JointHandle,
+        edit: impl FnOnce(&mut JointDef),
+    ) -> Result<()> {
+        let before = self.state.joints.get(joint)?;
+        let mut def = before.def.clone();
+        edit(&mut def);
+        let mut changed = make::joint(&self.state.bodies, def)?;
+        let bodies = [before.def.bodies, changed.def.bodies];
+        if changed.def.kind == before.def.kind && bodies[0] == bodies[1] {
+            (changed.springs, changed.notch) = (before.springs, before.notch);
+            (changed.impulses, changed.substep) = (before.impulses, before.substep);
+        }
+        changed.reaction = before.reaction;
+        *self.state.joints.get_mut(joint)? = changed;
+        bodies.into_iter().for_each(|pair| self.rejoin(pair));
+        Ok(())
+    }
+
+    /// Handles of the joints, in the order of [`World::joints`].
+    #[must_use]
+    pub fn joint_handles(&self) -> &[JointHandle] {
+        self.state.joints.handles()
+    }
+
+    /// The joints.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        self.state.joints.values()
+    }
+
+    /// What ties two bodies has changed: both wake, and what they may touch is looked for anew.
+    fn rejoin(&mut self, bodies: [Option<BodyHandle>; 2]) {
+        for body in bodies.into_iter().flatten() {
+            if let Ok(i) = self.state.bodies.index(body) {
+                self.pushed(i);
+                self.state.contacts.look_anew(i);
+            }
+        }
+        self.plan = None;
+    }
+
+    /// Forgets the joints of a body that goes.
+    pub(super) fn unjoin(&mut self, body: BodyHandle) {
+        self.state.joints.retain(|joint| !joint.def.bodies.contains(&Some(body)));
+    }
+
+    /// Energy (J) in the springs of all joints: Σ ½kC².
+    #[must_use]
+    pub fn spring_energy(&self) -> Real {
+        let State { bodies, joints, .. } = &self.state;
+        joints.values().iter().map(|joint| JointRef { bodies, joint }.energy()).sum()
+    }
+}
+
+use crate::world::State;
+
+/// A joint, to read.
+#[derive(Clone, Copy)]
+pub struct JointRef<'a> {
+    bodies: &'a Bodies,
+    joint: &'a Joint,
+}
+
+impl<'a> JointRef<'a> {
+    /// The definition, with all that was left open when the joint was made.
+    #[must_use]
+    pub fn def(&self) -> &'a JointDef {
+        &self.joint.def
+    }
+
+    /// What it does.
+    #[must_use]
+    pub fn kind(&self) -> &'a JointKind {
+        &self.joint.def.kind
+    }
+
+    /// The anchors, in the world (m).
+    #[must_use]
+    pub fn anchors(&self) -> [Vec2; 2] {
+        let locals = self.joint.anchors();
+        [0, 1].map(|side| match self.index(side) {
+            Some(i) => self.bodies.origin(i).apply(locals[side]),
+            None => locals[side],
+        })
+    }
+
+    /// Force (N) on B at its anchor, and torque (N·m) about it, in the last step, on average; A got the opposite.
+    #[must_use]
+    pub fn reaction(&self) -> Wrench {
+        self.joint.reaction
+    }
+
+    /// What the joint acts along, and its rate: the length of a distance joint or of the way along an axis (m, m/s), else
+    /// the angle of B against A (rad, rad/s), counted from the joint's own angle.
+    #[must_use]
+    pub fn travel(&self) -> [Real; 2] {
+        let pair = self.pair();
+        let [a, b] = self.anchors();
+        let (apart, rate) = (b - a, self.anchor_rate(&pair));
+        let along = |d: Vec2, spin: Real| {
+            [d.dot(&apart), d.dot(&rate) + spin * crate::math::perp(d).dot(&apart)]
+        };
+        match &self.joint.def.kind {
+            JointKind::Distance { .. } => {
+                let length = apart.norm();
+                [length, if length > 0.0 { apart.dot(&rate) / length } else { rate.norm() }]
+            }
+            JointKind::Prismatic { axis, .. }
+            | JointKind::Wheel { axis, .. }
+            | JointKind::Rack { axis, .. } => {
+                along(pair.rots[0].apply(axis.vector()), pair.twists[0].angular)
+            }
+            kind => {
+                let zero = kind.angle().unwrap_or(0.0);
+                let spin = pair.twists[1].angular - pair.twists[0].angular;
+                [pair.angles[1] - pair.angles[0] - zero, spin]
+            }
+        }
+    }
+
+    /// Velocity of B's anchor against A's (m/s).
+    fn anchor_rate(&self, pair: &Pair) -> Vec2 {
+        let law = law_of(self.bodies, self.joint);
+        let [a, b] = [0, 1].map(|side| pair.twists[side].at(pair.rots[side].apply(law.arms[side])));
+        b - a
+    }
+
+    /// How far the joint is from what it holds: the largest |C| of its rigid rows and of limits that are passed (m, or rad
+    /// where it holds an angle).
+    #[must_use]
+    pub fn gap(&self) -> Real {
+        let gap = |row: &crate::constraints::joint::Row| match row.action {
+            Action::Hold => row.position.abs(),
+            Action::Limit => (-row.position).max(0.0),
+            _ => 0.0,
+        };
+        self.rows().as_slice().iter().map(gap).fold(0.0, Real::max)
+    }
+
+    /// Energy in its springs (J): Σ ½kC².
+    #[must_use]
+    pub fn energy(&self) -> Real {
+        let energy = |row: &crate::constraints::joint::Row| match row.action {
+            Action::Spring(spring) => 0.5 * spring.stiffness * row.position * row.position,
+            _ => 0.0,
+        };
+        self.rows().as_slice().iter().map(energy).sum()
+    }
+
+    /// The rows where the bodies stand.
+    fn rows(&self) -> Rows {
+        law_of(self.bodies, self.joint).rows(&self.pair())
+    }
+
+    fn pair(&self) -> Pair {
+        pair_of(self.bodies, self.joint)
+    }
+
+    fn index(&self, side: usize) -> Option<usize> {
+        index_of(self.bodies, self.joint, side)
+    }
+}
+
+/// Place of a joint's body; none: the world.
+pub(super) fn index_of(bodies: &Bodies, joint: &Joint, side: usize) -> Option<usize> {
+    joint.def.bodies[side].and_then(|body| bodies.index(body).ok())
+}
+
+/// A joint as its rows see it.
+pub(super) fn law_of(bodies: &Bodies, joint: &Joint) -> Law {
+    let anchors = joint.anchors();
+    let arms = [0, 1].map(|side| match index_of(bodies, joint, side) {
+        Some(i) => anchors[side] - bodies.local_centers[i],
+        None => vec2(0.0, 0.0),
+    });
+    Law { kind: joint.def.kind, arms, springs: joint.springs, notch: joint.notch, custom: None }
+}
+
+/// Where the centres of a joint's bodies stand in the world (m); of the world, its anchor.
+pub(super) fn centers_of(bodies: &Bodies, joint: &Joint) -> [Vec2; 2] {
+    let anchors = joint.anchors();
+    [0, 1].map(|side| {
+        index_of(bodies, joint, side).map_or(anchors[side], |i| bodies.poses[i].position)
+    })
+}
+
+/// The bodies of a joint as they stand.
+pub(super) fn pair_of(bodies: &Bodies, joint: &Joint) -> Pair {
+    let centers = centers_of(bodies, joint);
+    let places = [0, 1].map(|side| index_of(bodies, joint, side));
+    Pair {
+        origin: centers[0],
+        centers: [vec2(0.0, 0.0), centers[1] - centers[0]],
+        rots: places.map(|i| i.map_or(Rot::IDENTITY, |i| bodies.poses[i].rot())),
+        angles: places.map(|i| i.map_or(0.0, |i| bodies.poses[i].angle)),
+        twists: places.map(|i| i.map_or(Twist::ZERO, |i| bodies.twists[i])),
+    }
+}
