@@ -126,7 +126,7 @@ mod tests {
                 let s = 1.0 / (1.0 + gains.after);
                 let (trace, b) =
                     (1.0 + gains.pull * s + (1.0 + gains.before) * s, (1.0 + gains.before) * s);
-                assert!(b <= 1.0 + 1e-12 && b >= -1e-9, "{step} {zeta}: {b}");
+                assert!((-1e-9..=1.0 + 1e-12).contains(&b), "{step} {zeta}: {b}");
                 assert!(trace.abs() <= 1.0 + b + 1e-9, "{step} {zeta}: {trace} {b}");
             }
         }
