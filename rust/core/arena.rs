@@ -192,6 +192,11 @@ impl<T: Named> Arena<T> {
         &self.values
     }
 
+    /// All values, to change.
+    pub fn values_mut(&mut self) -> &mut [T] {
+        &mut self.values
+    }
+
     /// Handles in the order of [`Arena::values`].
     #[must_use]
     pub fn handles(&self) -> &[Handle<T>] {

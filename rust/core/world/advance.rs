@@ -63,7 +63,8 @@ impl World {
                 ));
             }
         }
-        if !self.planned().colliding.is_empty() {
+        let plan = self.planned();
+        if !plan.colliding.is_empty() || plan.joints > 0 {
             return self.advance_colliding(duration, tolerance, times, watch);
         }
         self.attempt(|world| {

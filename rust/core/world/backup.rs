@@ -1,8 +1,11 @@
 //! What a call or a step changes, kept to go back to.
 
+use crate::arena::Arena;
 use crate::forces::Ledger;
+use crate::joint::Joint;
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::world::contacts::{Change, ContactBackup, Patch};
+use crate::world::joints::Memory;
 use crate::world::{Clock, Plan, State};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -21,6 +24,10 @@ pub(super) struct Backup {
     ledger: Ledger,
     /// What began or ended to touch and is not told yet.
     changes: Vec<Change>,
+    /// What joints remember.
+    joints: Vec<Memory>,
+    /// The joints, where one may break.
+    breakable: Option<Arena<Joint>>,
 }
 
 /// The moving part of a world at the start of a step, to take the step again.
@@ -28,8 +35,20 @@ pub(super) struct Backup {
 pub(super) struct Start {
     moving: Vec<(usize, Pose, Twist)>,
     patches: Vec<Patch>,
+    joints: Vec<Memory>,
     clock: Clock,
     ledger: Ledger,
+}
+
+fn remember(memories: &mut Vec<Memory>, state: &State) {
+    memories.clear();
+    memories.extend(state.joints.values().iter().map(Memory::of));
+}
+
+fn recall(memories: &[Memory], state: &mut State) {
+    for (memory, joint) in memories.iter().zip(state.joints.values_mut()) {
+        memory.put_back(joint);
+    }
 }
 
 impl Start {
@@ -38,6 +57,7 @@ impl Start {
         self.moving.clear();
         self.moving.extend(plan.moving().map(|i| (i, bodies.poses[i], bodies.twists[i])));
         self.patches.clone_from(&state.contacts.patches);
+        remember(&mut self.joints, state);
         (self.clock, self.ledger) = (state.clock, state.ledger);
     }
 
@@ -46,6 +66,7 @@ impl Start {
             (state.bodies.poses[i], state.bodies.twists[i]) = (pose, twist);
         }
         state.contacts.patches.clone_from(&self.patches);
+        recall(&self.joints, state);
         (state.clock, state.ledger) = (self.clock, self.ledger);
     }
 }
@@ -71,6 +92,11 @@ impl Backup {
         (self.clock, self.ledger) = (state.clock, state.ledger);
         self.changes.clear();
         self.changes.extend_from_slice(state.contacts.touching.changes());
+        remember(&mut self.joints, state);
+        let breaks = |joint: &Joint| {
+            joint.def.breaking_force.is_some() || joint.def.breaking_torque.is_some()
+        };
+        self.breakable = state.joints.values().iter().any(breaks).then(|| state.joints.clone());
     }
 
     /// Puts the state back, and says whether forces wait for the next step.
@@ -90,6 +116,10 @@ impl Backup {
             self.contacts.restore(&mut state.contacts);
         }
         (state.clock, state.ledger) = (self.clock, self.ledger);
+        match &self.breakable {
+            Some(joints) => state.joints.clone_from(joints),
+            None => recall(&self.joints, state),
+        }
         state.contacts.touching.set_changes(&self.changes);
         state.contacts.retell(state.bodies.handles());
         applied

@@ -18,7 +18,7 @@ mod stepper;
 pub use bodies::{BodyMut, BodyRef};
 pub use columns::Column;
 pub use contacts::{Contact, ContactEvent, ContactHooks, Events, PreSolve, ShapeView};
-pub use joints::JointRef;
+pub use joints::{BrokenJoint, JointRef};
 pub use plan::Plan;
 pub use queries::{Nearest, QueryFilter, RayHit, ShapeId, distance_between};
 pub use report::{StageTime, StepReport, Trajectory};
@@ -133,6 +133,7 @@ pub struct World {
     applied: bool,
     report: StepReport,
     events: Events,
+    broken: Vec<BrokenJoint>,
     scratch: WorldScratch,
     /// What has left the boxes of detection; found when a query asks for it. No part of the state, so that
     /// queries change nothing of what steps do.
@@ -189,6 +190,7 @@ impl World {
             applied,
             report: StepReport::default(),
             events: Events::default(),
+            broken: Vec::new(),
             scratch: WorldScratch::default(),
             strays: OnceLock::new(),
         }

@@ -4,9 +4,12 @@
 use std::fmt::Write as _;
 use std::ops::Range;
 
+use rustc_hash::FxHashSet;
+
 use crate::body::{BodyKind, Info};
 use crate::forces::has_drag;
 use crate::math::Wrench;
+use crate::world::joints::{index_of, tied};
 use crate::world::{State, World};
 
 /// How the bodies of a world move. Indices are places in body order.
@@ -26,6 +29,8 @@ pub struct Plan {
     pub(super) forces: bool,
     /// Bodies that move and have shapes, where there is anything they can meet.
     pub(super) colliding: Vec<u32>,
+    /// Number of joints that do anything.
+    pub(super) joints: usize,
 }
 
 impl Plan {
@@ -49,6 +54,8 @@ impl Plan {
                 _ => plan.single.push(i),
             }
         }
+        let ties = |joint: &&crate::joint::Joint| tied(bodies, joint).is_some();
+        plan.joints = state.joints.values().iter().filter(ties).count();
         if contacts.touchable() > 1 {
             let moving = (0..bodies.len()).filter(|i| {
                 bodies.infos[*i].def.kind != BodyKind::Static && !contacts.is_asleep(*i)
@@ -70,6 +77,17 @@ impl Plan {
     }
 }
 
+/// Pairs of bodies that a joint keeps from touching each other.
+fn kept_apart(state: &State) -> FxHashSet<[u32; 2]> {
+    let apart = state.joints.values().iter().filter(|joint| !joint.def.collide_connected);
+    let pairs = apart.filter_map(|joint| {
+        let pair = [0, 1].map(|side| index_of(&state.bodies, joint, side));
+        let [Some(i), Some(j)] = pair else { return None };
+        Some([i.min(j) as u32, i.max(j) as u32])
+    });
+    pairs.collect()
+}
+
 fn is_damped(info: &Info) -> bool {
     info.def.linear_damping > 0.0 || info.def.angular_damping > 0.0
 }
@@ -84,6 +102,7 @@ impl World {
         plan.get_or_insert_with(|| {
             // Groups of bodies that may be gone.
             scratch.contacts.forget();
+            state.contacts.apart = kept_apart(state);
             Plan::new(state, fields.len())
         })
     }
@@ -122,6 +141,14 @@ impl World {
             line(
                 "islands",
                 "what touches moves together, by the contact step instead of the below",
+            );
+        }
+        if plan.joints > 0 {
+            let joints =
+                format!("{} {}", plan.joints, if plan.joints == 1 { "joint" } else { "joints" });
+            line(
+                "advance",
+                &format!("{joints}: what they tie moves together, by the contact step"),
             );
         }
         for (bodies, how) in [(&plan.closed, ""), (&plan.damped, " and damping")] {

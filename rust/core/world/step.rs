@@ -58,6 +58,7 @@ impl World {
         })?;
         self.scratch.contacts.start = self.state.clock.now;
         if self.plan.as_ref().is_some_and(|plan| plan.colliding.is_empty()) {
+            self.join()?;
             self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
         } else {
             self.collide_and_advance(dt)?;
@@ -65,6 +66,13 @@ impl World {
         if self.notices() {
             self.stage("events", |world| {
                 world.notice();
+                Ok(())
+            })?;
+        }
+        if self.joins() {
+            self.stage("joints", |world| {
+                world.settle_joints();
+                world.planned();
                 Ok(())
             })?;
         }
@@ -109,9 +117,26 @@ impl World {
         Ok(())
     }
 
+    /// Whether any joint does anything.
+    fn joins(&self) -> bool {
+        self.plan.as_ref().is_some_and(|plan| plan.joints > 0)
+    }
+
+    /// Groups of what joints tie, where nothing can collide.
+    fn join(&mut self) -> Result<()> {
+        if !self.joins() {
+            return Ok(());
+        }
+        self.stage("islands", |world| {
+            world.find_islands();
+            Ok(())
+        })
+    }
+
     /// Whether bodies can fall asleep. Fields act on all bodies at once, and always.
     fn may_sleep(&self) -> bool {
-        let meets = |plan: &Plan| plan.together == 0 && !plan.colliding.is_empty();
+        let meets =
+            |plan: &Plan| plan.together == 0 && (!plan.colliding.is_empty() || plan.joints > 0);
         self.state.settings.sleeping && self.plan.as_ref().is_some_and(meets)
     }
 
@@ -145,11 +170,13 @@ impl World {
         }
         let report = std::mem::take(&mut self.report);
         self.events.clear();
+        self.broken.clear();
         let result = work(self);
         if result.is_err() {
             self.applied = self.scratch.backup.restore(&mut self.state);
             self.report = report;
             self.events.clear();
+            self.broken.clear();
             self.plan = None;
         }
         self.state.contacts.sleep.record(false);

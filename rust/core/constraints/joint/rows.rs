@@ -68,9 +68,8 @@ pub struct Rows {
 }
 
 impl Rows {
-    fn new() -> Self {
-        Self { rows: [Row::OFF; ROWS], count: 0, disc: false }
-    }
+    /// No row.
+    pub const NONE: Self = Self { rows: [Row::OFF; ROWS], count: 0, disc: false };
 
     fn push(&mut self, row: Row) {
         self.rows[self.count] = row;
@@ -197,7 +196,7 @@ impl Law {
     #[expect(clippy::too_many_lines, reason = "one arm a kind reads better whole")]
     #[must_use]
     pub fn rows(&self, pair: &Pair) -> Rows {
-        let mut out = Rows::new();
+        let mut out = Rows::NONE;
         let at = Anchors::of(self, pair);
         let axis = |local: Vec2| pair.rots[0].apply(local);
         let angle_row = |value: Option<Real>| turn(pair, -1.0, value.unwrap_or(0.0));

@@ -1,6 +1,7 @@
 //! Bodies that move together, and the contacts between them.
 
 use super::impacts::Watch;
+use super::joints::Ties;
 use crate::collision::Manifold;
 use crate::constraints::contact::Block;
 use crate::constraints::{Place, Velocity};
@@ -145,6 +146,8 @@ pub struct Group {
     pub blocks: Vec<Block>,
     /// The rest of each contact, in the order of the blocks.
     pub links: Vec<Link>,
+    /// The joints.
+    pub ties: Ties,
     /// Some surface is driven: a kinematic body or a conveyor.
     pub driven: bool,
     /// Length of the substep (s).
@@ -168,6 +171,7 @@ impl Group {
         self.reach.clear();
         self.blocks.clear();
         self.links.clear();
+        self.ties.clear();
         self.driven = false;
         self.watch.clear();
     }
@@ -182,9 +186,10 @@ impl Group {
     /// Books what the rows of a substep took from the bodies.
     ///
     /// With half the drift before the rows and half after, an impulse p does the work p·½(v⁻ + v⁺), v⁻ the velocity
-    /// at the start of the substep, whatever constant force acts meanwhile. What driven surfaces give is work.
-    pub(super) fn book_rows(&self, h: Real, ledger: &mut Ledger) {
-        let mut gained = 0.0;
+    /// at the start of the substep, whatever constant force acts meanwhile. What driven surfaces give is work. `by_joints`
+    /// is what joints gave, which is booked with them (J).
+    pub(super) fn book_rows(&self, h: Real, by_joints: Real, ledger: &mut Ledger) {
+        let mut gained = -by_joints;
         let bodies = self.velocities.iter().zip(&self.places).zip(&self.masses).zip(&self.free);
         for (((velocity, place), mass), free) in bodies {
             let (now, kick) = (&velocity.twist, place.kick(h));

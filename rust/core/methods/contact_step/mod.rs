@@ -10,20 +10,22 @@
 
 mod group;
 mod impacts;
+pub mod joints;
 mod law;
 mod path;
 mod project;
 
 use crate::body::ImpactLaw;
 use crate::collision::{Manifold, Sweep};
-use crate::constraints::Place;
 use crate::constraints::contact::{Block, curvature, moved};
+use crate::constraints::{Place, Velocity};
 use crate::error::Result;
 use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
 pub use group::{Group, Hit, Link, Mass, Watched};
+pub use joints::Tie;
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {
@@ -88,10 +90,13 @@ pub fn run(
 ) -> Result<Outcome> {
     let mut outcome = Outcome::default();
     let h = span.h();
+    joints::start(group);
     for k in 0..span.substeps {
+        joints::remember(group);
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         around.accelerate((span.time(k) + h / 2.0, h), group)?;
         place_blocks(group);
+        joints::place(group);
         kick(group, h / 2.0);
         group.middle = span.time(k) + h / 2.0;
         impacts::resolve(group, h, settings.law, (around, &mut outcome));
@@ -103,6 +108,10 @@ pub fn run(
         }
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         outcome.ledger.correction_work += project::apart(group, h);
+        if !group.ties.is_empty() {
+            outcome.ledger.correction_work += joints::close(group, h);
+            joints::book_dampers(group, &mut outcome.ledger);
+        }
         if !group.watch.blocks.is_empty() {
             outcome.thrown = outcome.thrown.max(group.farthest_thrown());
         }
@@ -182,15 +191,44 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
         fastest = fastest.max(kick_along(block, [&places[a], &places[b]], h));
     }
     sweep::warm_start(velocities, blocks);
+    joints::prepare(group, h);
+    let Group { velocities, blocks, links, ties, .. } = group;
     let most = settings.sweeps.max(SMALL / (blocks.len() as u32).max(1)).min(5 * settings.sweeps);
     let budget = Budget { tolerance: CALM * fastest, most };
-    let (sweeps, residual) = sweep::solve(velocities, blocks, budget);
+    let (sweeps, residual) = if ties.is_empty() {
+        sweep::solve(velocities, blocks, budget)
+    } else {
+        alternate(ties, (velocities, blocks), budget)
+    };
     outcome.sweeps += u64::from(sweeps);
     outcome.residual = outcome.residual.max(residual);
     for (block, link) in blocks.iter().zip(links) {
         link.passed += block.impulse[0] + block.impulse[1];
     }
-    group.book_rows(h, &mut outcome.ledger);
+    let by_joints = joints::book(group, h, &mut outcome.ledger);
+    group.book_rows(h, by_joints, &mut outcome.ledger);
+}
+
+/// Joints, all at once, and contacts, one after the other, in turn until neither changes; joints have the last word.
+fn alternate(
+    ties: &mut joints::Ties,
+    (velocities, blocks): (&mut [Velocity], &mut [Block]),
+    budget: Budget,
+) -> (u32, Real) {
+    joints::solve(ties, velocities);
+    if blocks.is_empty() {
+        return (0, 0.0);
+    }
+    let single = Budget { most: 1, ..budget };
+    let mut residual = 0.0;
+    for sweep in 1..=budget.most {
+        (_, residual) = sweep::solve(velocities, blocks, single);
+        residual = joints::solve(ties, velocities).max(residual);
+        if residual <= budget.tolerance {
+            return (sweep, residual);
+        }
+    }
+    (budget.most, residual)
 }
 
 /// Part of the substep's kick to which the velocities of the rows must settle.

@@ -1,5 +1,7 @@
 //! The stage that moves what touches: each group of bodies that contacts tie by the contact step.
 
+use rustc_hash::FxHashMap;
+
 use super::hooks::Answer;
 use super::near::Kind;
 use super::surroundings::{Fields, Still};
@@ -14,6 +16,8 @@ use crate::islands::Islands;
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, perp};
 use crate::methods::Span;
 use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Watched};
+use crate::solvers::direct::Factor;
+use crate::world::joints::{index_of, keep, tie, tied};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -22,8 +26,12 @@ pub(in crate::world) struct ContactScratch {
     pub found: Vec<Manifold>,
     islands: Islands,
     links: Vec<[u32; 2]>,
-    /// Patches of the links.
+    /// Patches of the first links.
     solid: Vec<u32>,
+    /// Joints of the others.
+    joined: Vec<u32>,
+    /// Factors of the groups with joints, by the first of those, with their graph.
+    factors: FxHashMap<u32, Factor>,
     pub(super) group: Group,
     /// Slot of each body in the group at work; valid where the mark is the group's.
     slots: Vec<(u32, u32)>,
@@ -65,17 +73,20 @@ impl ContactScratch {
     pub fn forget(&mut self) {
         self.islands.clear();
         self.moved.clear();
+        self.factors.clear();
     }
 }
 
 impl World {
-    /// Splits what touches into groups.
+    /// Splits what touches or is joined into groups.
     pub(in crate::world) fn find_islands(&mut self) {
         let Self { state, scratch, plan, .. } = self;
+        let meets = plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty());
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
         let gives_way = |i: u32| masses[i as usize].is_free() && !contacts.is_asleep(i as usize);
-        let ContactScratch { islands, links, solid, moved, answers, thrown, watched, .. } =
-            &mut scratch.contacts;
+        let ContactScratch {
+            islands, links, solid, joined, moved, answers, thrown, watched, ..
+        } = &mut scratch.contacts;
         // What was marked in the last step, so that those that sleep cost nothing.
         for i in links.drain(..).flatten() {
             moved.get_mut(i as usize).into_iter().for_each(|moved| *moved = false);
@@ -87,7 +98,8 @@ impl World {
         }
         moved.resize(masses.len(), false);
         (*thrown, *watched) = (0.0, contacts.far);
-        for (place, patch) in contacts.patches.iter().enumerate() {
+        let patches = if meets { &contacts.patches[..] } else { &[] };
+        for (place, patch) in patches.iter().enumerate() {
             let near = &contacts.near[patch.near as usize];
             if answers.get(place).is_some_and(|answer| !answer.on) {
                 continue;
@@ -100,6 +112,15 @@ impl World {
                 bodies.iter().for_each(|i| moved[*i as usize] = gives_way(*i));
                 // One that strikes a sleeping one takes the step again.
                 *watched |= bodies.iter().any(|i| contacts.is_asleep(*i as usize));
+            }
+        }
+        joined.clear();
+        for (place, joint) in state.joints.values().iter().enumerate() {
+            let Some(pair) = tied(&state.bodies, joint) else { continue };
+            if pair.iter().any(|i| gives_way(*i)) {
+                links.push(pair);
+                joined.push(place as u32);
+                pair.iter().for_each(|i| moved[*i as usize] = gives_way(*i));
             }
         }
         // Fields act on all bodies at once, which then are one group.
@@ -120,19 +141,44 @@ impl World {
         self.state.contacts.scale_impulses(span.h());
         for k in 0..self.scratch.contacts.islands.len() {
             self.gather(k, span);
-            let outcome = self.step_group(span)?;
-            self.scatter(outcome, span);
+            let outcome = self.step_group(span);
+            self.keep_factor();
+            self.scatter(outcome?, span);
         }
         Ok(())
     }
 
-    /// Fills the group with the bodies and contacts of island k.
+    /// Takes the factor that belongs to the group's joints, or a new one.
+    fn take_factor(group: &mut Group, factors: &mut FxHashMap<u32, Factor>) {
+        if let Some(first) = group.ties.list.first() {
+            group.ties.factor = factors.remove(&first.place).unwrap_or_default();
+        }
+    }
+
+    fn keep_factor(&mut self) {
+        let ContactScratch { group, factors, .. } = &mut self.scratch.contacts;
+        if let Some(first) = group.ties.list.first() {
+            factors.insert(first.place, std::mem::take(&mut group.ties.factor));
+        }
+    }
+
+    /// Fills the group with the bodies, contacts and joints of island k.
     fn gather(&mut self, k: usize, span: Span) {
         let Self { state, scratch, plan, .. } = self;
-        let State { bodies, settings, contacts, .. } = state;
+        let State { bodies, settings, contacts, joints, .. } = state;
         let steady = &scratch.steady;
-        let ContactScratch { islands, links, solid, group, slots, mark, answers, .. } =
-            &mut scratch.contacts;
+        let ContactScratch {
+            islands,
+            links,
+            solid,
+            joined,
+            group,
+            slots,
+            mark,
+            answers,
+            factors,
+            ..
+        } = &mut scratch.contacts;
         group.clear();
         *mark = mark.wrapping_add(1);
         slots.resize(bodies.len(), (0, 0));
@@ -154,7 +200,16 @@ impl World {
         }
         for link in islands.group(k) {
             let pair = links[*link as usize];
-            let place = solid[*link as usize];
+            let Some(place) = solid.get(*link as usize).copied() else {
+                let place = joined[*link as usize - solid.len()];
+                let joint = &joints.values()[place as usize];
+                let ends = [0, 1].map(|side| {
+                    let body = index_of(bodies, joint, side)?;
+                    Some(slot_of(group, body as u32))
+                });
+                group.ties.list.push(tie(bodies, (joint, place), ends, h));
+                continue;
+            };
             let slots = pair.map(|body| slot_of(group, body));
             let patch = &contacts.patches[place as usize];
             let near = &contacts.near[patch.near as usize];
@@ -183,6 +238,7 @@ impl World {
             };
             group.add_contact(block, link);
         }
+        Self::take_factor(group, factors);
     }
 
     fn step_group(&mut self, span: Span) -> Result<Outcome> {
@@ -229,8 +285,9 @@ impl World {
         let Self { state, scratch, report, events, plan, .. } = self;
         // Fields book the work of steady forces with their own, and no one else moves the bodies then.
         let together = plan.as_ref().is_some_and(|plan| plan.together > 0);
-        let State { bodies, contacts, ledger, .. } = state;
+        let State { bodies, contacts, joints, ledger, .. } = state;
         let group = &scratch.contacts.group;
+        keep(joints.values_mut(), group, (span.duration, span.h()));
         // Before the bodies move: hits are told from where they were.
         contacts.book_hits(bodies, group, span, &mut events.hit);
         for (slot, body) in group.bodies.iter().enumerate() {

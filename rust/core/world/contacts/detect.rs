@@ -104,6 +104,7 @@ impl Contacts {
                 || !x.filter.allows(&y.filter)
                 || map.contains(a, b)
                 || self.sleep_apart([i, j])
+                || self.kept_apart([i, j])
             {
                 return false;
             }
@@ -134,10 +135,17 @@ impl Contacts {
                 Near { proxies, touch, kind, touching: false, height: 0.0, first: 0, count: 0 };
             self.take_in(pair, bodies);
         }
-        let parted =
-            |pair: &Near, own: &Self| !own.broad.overlaps(pair.proxies[0], pair.proxies[1]);
+        let parted = |pair: &Near, own: &Self| {
+            !own.broad.overlaps(pair.proxies[0], pair.proxies[1])
+                || own.kept_apart(pair.proxies.map(|proxy| own.body_of(proxy) as usize))
+        };
         self.drop_near(bodies.handles(), parted);
         Ok(())
+    }
+
+    /// Whether a joint keeps two bodies from touching each other.
+    fn kept_apart(&self, [i, j]: [usize; 2]) -> bool {
+        !self.apart.is_empty() && self.apart.contains(&[i.min(j) as u32, i.max(j) as u32])
     }
 
     /// Orders the pairs from above down. Sweeps that follow the load settle several times sooner than those in any

@@ -24,6 +24,7 @@ pub(super) use strays::Strays;
 pub(super) use touching::Change;
 pub use view::Contact;
 
+use rustc_hash::FxHashSet;
 use serde::{Deserialize, Serialize};
 
 use crate::body::{Bodies, Filter, Role};
@@ -74,6 +75,9 @@ pub(super) struct Contacts {
     /// order.
     #[serde(skip)]
     covered: Vec<Real>,
+    /// Bodies, in pairs, that a joint keeps from touching each other.
+    #[serde(skip)]
+    pub apart: FxHashSet<[u32; 2]>,
     /// Bodies whose place was set since the last detection.
     #[serde(skip)]
     moved: Vec<u32>,

@@ -1,13 +1,29 @@
 //! Joints of a world: made, read, changed, removed.
 
 mod make;
+mod step;
+
+pub(super) use step::{Memory, keep, tie, tied};
 
 use crate::body::{Bodies, BodyHandle};
 use crate::constraints::joint::{Action, Law, Pair, Rows};
 use crate::error::Result;
 use crate::joint::{Joint, JointDef, JointHandle, JointKind};
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, vec2};
-use crate::world::World;
+use crate::world::{State, World};
+
+/// A joint that broke in the last call: it bore more than it may, and is no longer in the world.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BrokenJoint {
+    /// World time (s) at the end of the step.
+    pub time: Real,
+    /// The handle, which names nothing any more.
+    pub joint: JointHandle,
+    /// What it was.
+    pub def: JointDef,
+    /// Force (N) on B, and torque (N·m) about its anchor, in the step.
+    pub reaction: Wrench,
+}
 
 /// Adding, removing and changing joints.
 impl World {
@@ -73,6 +89,22 @@ impl World {
         self.state.joints.values()
     }
 
+    /// Joints that broke in the last call, in the order of time.
+    #[must_use]
+    pub fn broken_joints(&self) -> &[BrokenJoint] {
+        &self.broken
+    }
+
+    /// Takes away a joint that bore too much, and tells.
+    fn break_joint(&mut self, joint: JointHandle) {
+        let time = self.time();
+        if let Ok(gone) = self.state.joints.remove(joint) {
+            let (bodies, reaction) = (gone.def.bodies, gone.reaction);
+            self.broken.push(BrokenJoint { time, joint, def: gone.def, reaction });
+            self.rejoin(bodies);
+        }
+    }
+
     /// What ties two bodies has changed: both wake, and what they may touch is looked for anew.
     fn rejoin(&mut self, bodies: [Option<BodyHandle>; 2]) {
         for body in bodies.into_iter().flatten() {
@@ -96,8 +128,6 @@ impl World {
         joints.values().iter().map(|joint| JointRef { bodies, joint }.energy()).sum()
     }
 }
-
-use crate::world::State;
 
 /// A joint, to read.
 #[derive(Clone, Copy)]

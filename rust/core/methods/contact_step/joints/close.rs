@@ -1,0 +1,162 @@
+//! Gaps of rigid rows closed by moving positions.
+//!
+//! The shift τ·M⁻¹Jᵀμ, with J of the middle of the substep and τ half of it, is what an impulse μ in the middle and −μ at
+//! the end would do together; what the two do to the velocities, M⁻¹(J − J₁)ᵀμ with J₁ at the end, is done as well. Each of them
+//! keeps momentum and angular momentum, so the whole does, to rounding.
+
+use super::active::{State, fill};
+use super::{Bodies, Ties};
+use crate::constraints::joint::{self, Action};
+use crate::math::{Real, Twist};
+use crate::methods::contact_step::Group;
+use crate::solvers::direct::Triple;
+
+/// Newton steps a substep: each leaves of a gap about its part of the turn in half a substep.
+const STEPS: usize = 4;
+
+/// A gap of this part of the lengths around the joint is rounding.
+const CLOSED: Real = 1e-14;
+
+/// Turn (rad) that a step may give at most.
+const MOST_TURN: Real = 0.3;
+
+/// Closes the gaps; returns the work that takes against the forces (J), and takes the rows at the end of the substep.
+pub fn close(group: &mut Group, h: Real) -> Real {
+    look(group);
+    let mut total: Vec<Triple> = Vec::new();
+    let mut work = 0.0;
+    for step in 0..STEPS {
+        if !open(group) {
+            break;
+        }
+        if step == 0 {
+            total.resize(group.ties.links.len(), [0.0; 3]);
+            refactor(group);
+        }
+        work += shift(group, &mut total);
+        look(group);
+    }
+    if !total.is_empty() {
+        work += turn_velocities(group, &total, 0.5 * h);
+    }
+    work
+}
+
+/// Rows where the bodies are now.
+fn look(group: &mut Group) {
+    let Group { ties, velocities, places, angles, .. } = group;
+    let bodies = Bodies { velocities, places, angles };
+    for tie in &mut ties.list {
+        tie.end = tie.law.rows(&bodies.pair(tie));
+    }
+}
+
+/// How far a row is from what it holds (m or rad): limits that carried a load count both ways.
+fn gap(middle: &joint::Row, end: &joint::Row, impulse: Real) -> Real {
+    match (middle.action, end.action) {
+        (Action::Hold, Action::Hold) => end.position,
+        (Action::Limit, Action::Limit) if impulse > 0.0 => end.position,
+        (Action::Limit, Action::Limit) => end.position.min(0.0),
+        _ => 0.0,
+    }
+}
+
+/// Whether any row is open by more than rounding.
+fn open(group: &Group) -> bool {
+    let ties = &group.ties;
+    ties.list.iter().any(|tie| {
+        let size = tie.apart.norm() + tie.law.arms[0].norm() + tie.law.arms[1].norm();
+        (0..tie.middle.count).any(|k| {
+            let (middle, end) = (&tie.middle.rows[k], &tie.end.rows[k]);
+            let [x, y, _] = middle.jacobian[1];
+            let length = if x == 0.0 && y == 0.0 { 1.0 } else { size };
+            gap(middle, end, ties.rows[tie.first_row + k].impulse).abs() > CLOSED * length
+        })
+    })
+}
+
+/// Makes the factors those of the rows that hold positions.
+fn refactor(group: &mut Group) {
+    let Group { ties, velocities, .. } = group;
+    let Ties { list, rows, nodes, links, factor, factored, .. } = ties;
+    let holds = |tie: &super::Tie, k: usize| {
+        let (middle, end) = (&tie.middle.rows[k], &tie.end.rows[k]);
+        let impulse = rows[tie.first_row + k].impulse;
+        match middle.action {
+            Action::Hold => middle.bound == Real::INFINITY,
+            Action::Limit => end.action == Action::Limit && (impulse > 0.0 || end.position < 0.0),
+            _ => false,
+        }
+    };
+    let velocity_rows = |tie: &super::Tie, k: usize| rows[tie.first_row + k].state == State::Solved;
+    let same = factored.is_some()
+        && list
+            .iter()
+            .all(|tie| (0..tie.middle.count).all(|k| holds(tie, k) == velocity_rows(tie, k)));
+    if same {
+        return;
+    }
+    fill(list, nodes, links.len(), |tie, k| holds(tie, k).then_some(0.0));
+    factor.factor(velocities, nodes);
+    *factored = None;
+}
+
+/// One Newton step; returns the work it takes (J).
+fn shift(group: &mut Group, total: &mut [Triple]) -> Real {
+    let Group { ties, places, masses, .. } = group;
+    let Ties { list, rows, factor, wanted, solved, change, links, .. } = ties;
+    wanted.clear();
+    wanted.resize(links.len(), [0.0; 3]);
+    solved.clear();
+    solved.resize(links.len(), [0.0; 3]);
+    change.clear();
+    change.resize(places.len(), Twist::ZERO);
+    for tie in &*list {
+        for k in 0..tie.middle.count {
+            let impulse = rows[tie.first_row + k].impulse;
+            wanted[tie.first_node + k / 3][k % 3] =
+                -gap(&tie.middle.rows[k], &tie.end.rows[k], impulse);
+        }
+    }
+    factor.solve(wanted, solved, change);
+    let turn = change.iter().map(|change| change.angular.abs()).fold(0.0, Real::max);
+    let part = if turn > MOST_TURN { MOST_TURN / turn } else { 1.0 };
+    for (sum, own) in total.iter_mut().zip(&*solved) {
+        sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += part * own);
+    }
+    let mut work = 0.0;
+    for ((place, change), mass) in places.iter_mut().zip(&*change).zip(&*masses) {
+        if *change == Twist::ZERO {
+            continue;
+        }
+        let way = Twist::new(change.linear * part, change.angular * part);
+        place.way += way.linear;
+        place.rotate(way.angular);
+        work -= mass.work(&way, &place.acceleration);
+    }
+    work
+}
+
+/// The velocities' share of the shift; returns the energy it gives (J).
+fn turn_velocities(group: &mut Group, total: &[Triple], half: Real) -> Real {
+    let Group { ties, velocities, masses, .. } = group;
+    let before: Vec<Twist> = velocities.iter().map(|velocity| velocity.twist).collect();
+    for tie in &ties.list {
+        for k in 0..tie.middle.count {
+            let impulse = total[tie.first_node + k / 3][k % 3] / half;
+            if impulse == 0.0 {
+                continue;
+            }
+            super::prepare::push(velocities, tie.slots, &tie.middle.rows[k], impulse);
+            super::prepare::push(velocities, tie.slots, &tie.end.rows[k], -impulse);
+        }
+    }
+    let gains =
+        before.iter().zip(velocities.iter()).zip(masses).map(|((before, velocity), mass)| {
+            let now = &velocity.twist;
+            let change = Twist::new(now.linear - before.linear, now.angular - before.angular);
+            let sum = Twist::new(now.linear + before.linear, now.angular + before.angular);
+            0.5 * mass.work(&change, &sum)
+        });
+    gains.sum()
+}

@@ -1,0 +1,3 @@
+//! Joints: what they hold, and what they keep.
+mod common;
+mod trial;
