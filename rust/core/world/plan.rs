@@ -96,6 +96,14 @@ fn count(n: usize) -> String {
     format!("{n} {}", if n == 1 { "body" } else { "bodies" })
 }
 
+fn explain_joints(plan: &Plan, line: &mut dyn FnMut(&str, &str)) {
+    if plan.joints > 0 {
+        let joints = if plan.joints == 1 { "joint" } else { "joints" };
+        let what = "what they tie moves together, by the contact step";
+        line("advance", &format!("{} {joints}: {what}", plan.joints));
+    }
+}
+
 impl World {
     pub(super) fn planned(&mut self) -> &Plan {
         let Self { plan, state, fields, scratch, .. } = self;
@@ -143,14 +151,7 @@ impl World {
                 "what touches moves together, by the contact step instead of the below",
             );
         }
-        if plan.joints > 0 {
-            let joints =
-                format!("{} {}", plan.joints, if plan.joints == 1 { "joint" } else { "joints" });
-            line(
-                "advance",
-                &format!("{joints}: what they tie moves together, by the contact step"),
-            );
-        }
+        explain_joints(&plan, &mut line);
         for (bodies, how) in [(&plan.closed, ""), (&plan.damped, " and damping")] {
             if !bodies.is_empty() {
                 let how = format!("closed form, exact at any step (constant forces{how})");

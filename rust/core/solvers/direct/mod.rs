@@ -100,6 +100,13 @@ impl Factor {
         self.structure.analyse(bodies, links)
     }
 
+    /// Products of blocks that the factors of the analysed graph take.
+    #[must_use]
+    pub fn work(&self) -> usize {
+        let filled = |column: usize| self.structure.below(column).len();
+        (0..self.structure.len()).map(|column| filled(column) * (filled(column) + 1) / 2).sum()
+    }
+
     /// Factors of the rows, one item a link as analysed, on bodies of these inverse masses. A row that nothing can
     /// give way to, or that is not finite, is switched off.
     pub fn factor(&mut self, bodies: &[Velocity], rows: &[Rows]) {

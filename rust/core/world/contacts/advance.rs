@@ -8,7 +8,7 @@ use super::surroundings::{Fields, Still};
 use super::{Contacts, FAR};
 use crate::body::Bodies;
 use crate::collision::{Anchor, Collider, Manifold, Normal};
-use crate::constraints::contact::Block;
+use crate::constraints::contact::{Block, Touch};
 use crate::constraints::{Place, Velocity};
 use crate::error::Result;
 use crate::forces::Forces;
@@ -16,7 +16,7 @@ use crate::islands::Islands;
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, perp};
 use crate::methods::Span;
 use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Watched};
-use crate::solvers::direct::Factor;
+use crate::solvers::links::LinkSolver;
 use crate::world::joints::{index_of, keep, tie, tied};
 use crate::world::{State, World};
 
@@ -30,8 +30,8 @@ pub(in crate::world) struct ContactScratch {
     solid: Vec<u32>,
     /// Joints of the others.
     joined: Vec<u32>,
-    /// Factors of the groups with joints, by the first of those, with their graph.
-    factors: FxHashMap<u32, Factor>,
+    /// Solvers of the groups with joints, by the first of those: they know its graph.
+    solvers: FxHashMap<u32, LinkSolver>,
     pub(super) group: Group,
     /// Slot of each body in the group at work; valid where the mark is the group's.
     slots: Vec<(u32, u32)>,
@@ -73,7 +73,7 @@ impl ContactScratch {
     pub fn forget(&mut self) {
         self.islands.clear();
         self.moved.clear();
-        self.factors.clear();
+        self.solvers.clear();
     }
 }
 
@@ -142,23 +142,23 @@ impl World {
         for k in 0..self.scratch.contacts.islands.len() {
             self.gather(k, span);
             let outcome = self.step_group(span);
-            self.keep_factor();
+            self.keep_solver();
             self.scatter(outcome?, span);
         }
         Ok(())
     }
 
-    /// Takes the factor that belongs to the group's joints, or a new one.
-    fn take_factor(group: &mut Group, factors: &mut FxHashMap<u32, Factor>) {
+    /// Takes the solver that belongs to the group's joints, or a new one.
+    fn take_solver(group: &mut Group, solvers: &mut FxHashMap<u32, LinkSolver>) {
         if let Some(first) = group.ties.list.first() {
-            group.ties.factor = factors.remove(&first.place).unwrap_or_default();
+            group.ties.solver = solvers.remove(&first.place).unwrap_or_default();
         }
     }
 
-    fn keep_factor(&mut self) {
-        let ContactScratch { group, factors, .. } = &mut self.scratch.contacts;
+    fn keep_solver(&mut self) {
+        let ContactScratch { group, solvers, .. } = &mut self.scratch.contacts;
         if let Some(first) = group.ties.list.first() {
-            factors.insert(first.place, std::mem::take(&mut group.ties.factor));
+            solvers.insert(first.place, std::mem::take(&mut group.ties.solver));
         }
     }
 
@@ -176,20 +176,20 @@ impl World {
             slots,
             mark,
             answers,
-            factors,
+            solvers,
             ..
         } = &mut scratch.contacts;
         group.clear();
         *mark = mark.wrapping_add(1);
         slots.resize(bodies.len(), (0, 0));
         let h = span.h();
+        let gravity = settings.gravity;
         let mut slot_of = |group: &mut Group, body: u32| {
             let entry = &mut slots[body as usize];
             if entry.0 != *mark {
                 *entry = (*mark, group.bodies.len() as u32);
                 let steady = steady.get(body as usize).copied().unwrap_or(Wrench::ZERO);
-                add_body(group, (bodies, contacts), body, (settings.gravity, steady));
-                group.reach.push(contacts.covered[body as usize]);
+                add_body(group, (bodies, contacts), body, (gravity, steady));
             }
             entry.1
         };
@@ -211,34 +211,14 @@ impl World {
                 continue;
             };
             let slots = pair.map(|body| slot_of(group, body));
-            let patch = &contacts.patches[place as usize];
-            let near = &contacts.near[patch.near as usize];
-            let touch = answers.get(place as usize).map_or(&near.touch, |answer| &answer.touch);
-            let [i, j] = pair.map(|body| body as usize);
-            let apart = bodies.poses[j].position - bodies.poses[i].position;
-            let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
-            let width = x.width.min(y.width);
-            let holder = if matches!(patch.manifold.normal, Normal::OnB(_)) { j } else { i };
-            let manifold = (&patch.manifold, contacts.frames[holder].rot);
-            let moves = |part, h| moves_far(bodies, [x, y], manifold, (part * width, h));
-            let watched = watched(
-                contacts.spread > FAR * width || moves(FAR, h),
-                (touch.restitution > 0.0, moves(TURNS, span.duration)),
-                x.is_round() && y.is_round(),
-            );
+            let answer = answers.get(place as usize);
+            let (touch, link) = link_of((bodies, contacts), (place, pair), answer, span);
             group.driven |= touch.tangent_speed != 0.0;
-            let block = Block::new(slots, &patch.manifold, touch, &patch.memory);
-            let link = Link {
-                apart,
-                restitution: touch.restitution,
-                width,
-                tangent_speed: touch.tangent_speed,
-                watched,
-                ..Link::new(patch.manifold, place)
-            };
+            let memory = &contacts.patches[place as usize].memory;
+            let block = Block::new(slots, &link.manifold, &touch, memory);
             group.add_contact(block, link);
         }
-        Self::take_factor(group, factors);
+        Self::take_solver(group, solvers);
     }
 
     fn step_group(&mut self, span: Span) -> Result<Outcome> {
@@ -315,6 +295,40 @@ impl World {
     }
 }
 
+/// What the contact step needs of a patch between two bodies beside its rows.
+fn link_of(
+    (bodies, contacts): (&Bodies, &Contacts),
+    (place, [i, j]): (u32, [u32; 2]),
+    answer: Option<&Answer>,
+    span: Span,
+) -> (Touch, Link) {
+    let patch = &contacts.patches[place as usize];
+    let near = &contacts.near[patch.near as usize];
+    let touch = answer.map_or(near.touch, |answer| answer.touch);
+    let [i, j] = [i as usize, j as usize];
+    let apart = bodies.poses[j].position - bodies.poses[i].position;
+    let [x, y] = near.proxies.map(|p| &contacts.entries[p.0 as usize].collider);
+    let width = x.width.min(y.width);
+    let holder = if matches!(patch.manifold.normal, Normal::OnB(_)) { j } else { i };
+    let manifold = (&patch.manifold, contacts.frames[holder].rot);
+    let moves = |part, h| moves_far(bodies, [x, y], manifold, (part * width, h));
+    let watched = watched(
+        contacts.spread > FAR * width || moves(FAR, span.h()),
+        (touch.restitution > 0.0, moves(TURNS, span.duration)),
+        x.is_round() && y.is_round(),
+    );
+    let tangent_speed = touch.tangent_speed;
+    let link = Link {
+        apart,
+        restitution: touch.restitution,
+        width,
+        tangent_speed,
+        watched,
+        ..Link::new(patch.manifold, place)
+    };
+    (touch, link)
+}
+
 fn add_body(
     group: &mut Group,
     (bodies, contacts): (&Bodies, &Contacts),
@@ -329,6 +343,7 @@ fn add_body(
     if contacts.is_asleep(i) {
         (velocity.inverse_mass, velocity.inverse_inertia) = (Vec2::zeros(), 0.0);
     }
+    group.reach.push(contacts.covered[i]);
     let fixed = velocity.is_fixed();
     group.driven |= fixed && velocity.twist != Twist::ZERO;
     group.bodies.push(body);

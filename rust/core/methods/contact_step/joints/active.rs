@@ -1,4 +1,4 @@
-//! The rows of all joints solved at once, bounds included: an active set over the sparse factors.
+//! The rows of all joints solved at once, bounds included: an active set over the solver of links.
 //!
 //! Rows that are solved meet their targets; those that are pinned have the impulse of a bound. Rows whose impulse leaves
 //! its bounds are pinned, pinned ones whose velocity says that they would come back are solved again, until nothing
@@ -74,25 +74,29 @@ const TOGETHER: usize = 8;
 /// Rounding of a velocity, in parts of what it is a sum of.
 const ROUNDING: Real = 1e-12;
 
-/// Solves all rows against the present velocities and gives the bodies the change. Returns the largest change of the
-/// velocity along a row.
-pub fn solve(ties: &mut Ties, velocities: &mut [Velocity]) -> Real {
-    let mut change: Real = 0.0;
-    let most = TOGETHER + 4 * ties.rows.len();
+/// Solves all rows against the present velocities and gives the bodies the change. Returns what they lacked at first: the
+/// largest, along a row.
+///
+/// Where the rows are too many for factors, `sweeps` to and fro do what they can.
+pub fn solve(ties: &mut Ties, velocities: &mut [Velocity], sweeps: u32) -> Real {
+    let by_sweeps = ties.solver.by_sweeps();
+    let most = if by_sweeps { sweeps as usize } else { TOGETHER + 4 * ties.rows.len() };
+    let mut first: Real = 0.0;
     for round in 0..most {
-        refactor(ties, velocities);
-        change = change.max(correct(ties, velocities));
-        if !review(ties, velocities, round >= TOGETHER) {
+        prepare(ties, velocities);
+        let lacked = correct(ties, velocities);
+        first = if round == 0 { lacked } else { first };
+        if !review(ties, velocities, round >= TOGETHER) && !by_sweeps {
             break;
         }
     }
-    change
+    first
 }
 
-/// Makes the factors those of the rows that are solved.
-fn refactor(ties: &mut Ties, velocities: &[Velocity]) {
-    let Ties { list, rows, nodes, factor, factored, links, .. } = ties;
-    let mut on = factored.take().unwrap_or_default();
+/// Hands the solver the rows that are solved.
+fn prepare(ties: &mut Ties, velocities: &[Velocity]) {
+    let Ties { list, rows, nodes, solver, prepared, links, .. } = ties;
+    let mut on = prepared.take().unwrap_or_default();
     let known = on.len() == links.len();
     on.resize(links.len(), [false; 3]);
     let mut same = known;
@@ -109,12 +113,12 @@ fn refactor(ties: &mut Ties, velocities: &[Velocity]) {
             let row = &rows[tie.first_row + k];
             (row.state == State::Solved).then_some(row.compliance)
         });
-        factor.factor(velocities, nodes);
+        solver.prepare(velocities, links, nodes);
     }
-    *factored = Some(on);
+    *prepared = Some(on);
 }
 
-/// Rows of the factor's nodes; those for which there is no compliance are off.
+/// Rows of the links; those for which there is no compliance are off.
 pub fn fill(
     list: &[Tie],
     nodes: &mut Vec<direct::Rows>,
@@ -147,7 +151,7 @@ fn twists(velocities: &[Velocity], tie: &Tie) -> [Twist; 2] {
 
 /// Solves the rows that are on; the bodies get the change.
 fn correct(ties: &mut Ties, velocities: &mut [Velocity]) -> Real {
-    let Ties { list, rows, factor, wanted, solved, change, links, .. } = ties;
+    let Ties { list, rows, solver, wanted, solved, change, links, .. } = ties;
     wanted.clear();
     wanted.resize(links.len(), [0.0; 3]);
     solved.clear();
@@ -169,7 +173,7 @@ fn correct(ties: &mut Ties, velocities: &mut [Velocity]) -> Real {
     if largest == 0.0 {
         return 0.0;
     }
-    factor.solve(wanted, solved, change);
+    solver.solve(wanted, 1, solved, change);
     for (velocity, change) in velocities.iter_mut().zip(&*change) {
         velocity.twist += *change;
     }
@@ -243,10 +247,10 @@ fn review_disc(tie: &Tie, rows: &mut [Row], velocities: &mut [Velocity]) -> bool
     match rows[0].state {
         State::Solved if length(rows) > bound * (1.0 + ROUNDING) => {
             let scale = bound / length(rows);
-            for k in 0..2 {
-                let to = rows[k].impulse * scale;
-                push(velocities, tie.slots, &tie.middle.rows[k], to - rows[k].impulse);
-                (rows[k].impulse, rows[k].state) = (to, State::Pinned);
+            for (row, now) in rows[..2].iter_mut().zip(&tie.middle.rows) {
+                let to = row.impulse * scale;
+                push(velocities, tie.slots, now, to - row.impulse);
+                (row.impulse, row.state) = (to, State::Pinned);
             }
             true
         }

@@ -14,6 +14,9 @@ use crate::solvers::direct::Triple;
 /// Newton steps a substep: each leaves of a gap about its part of the turn in half a substep.
 const STEPS: usize = 4;
 
+/// Sweeps to and fro of a Newton step where the solver sweeps.
+const SWEEPS: u32 = 2;
+
 /// A gap of this part of the lengths around the joint is rounding.
 const CLOSED: Real = 1e-14;
 
@@ -31,7 +34,7 @@ pub fn close(group: &mut Group, h: Real) -> Real {
         }
         if step == 0 {
             total.resize(group.ties.links.len(), [0.0; 3]);
-            refactor(group);
+            prepare(group);
         }
         work += shift(group, &mut total);
         look(group);
@@ -75,10 +78,10 @@ fn open(group: &Group) -> bool {
     })
 }
 
-/// Makes the factors those of the rows that hold positions.
-fn refactor(group: &mut Group) {
+/// Hands the solver the rows that hold positions.
+fn prepare(group: &mut Group) {
     let Group { ties, velocities, .. } = group;
-    let Ties { list, rows, nodes, links, factor, factored, .. } = ties;
+    let Ties { list, rows, nodes, links, solver, prepared, .. } = ties;
     let holds = |tie: &super::Tie, k: usize| {
         let (middle, end) = (&tie.middle.rows[k], &tie.end.rows[k]);
         let impulse = rows[tie.first_row + k].impulse;
@@ -89,7 +92,7 @@ fn refactor(group: &mut Group) {
         }
     };
     let velocity_rows = |tie: &super::Tie, k: usize| rows[tie.first_row + k].state == State::Solved;
-    let same = factored.is_some()
+    let same = prepared.is_some()
         && list
             .iter()
             .all(|tie| (0..tie.middle.count).all(|k| holds(tie, k) == velocity_rows(tie, k)));
@@ -97,14 +100,14 @@ fn refactor(group: &mut Group) {
         return;
     }
     fill(list, nodes, links.len(), |tie, k| holds(tie, k).then_some(0.0));
-    factor.factor(velocities, nodes);
-    *factored = None;
+    solver.prepare(velocities, links, nodes);
+    *prepared = None;
 }
 
 /// One Newton step; returns the work it takes (J).
 fn shift(group: &mut Group, total: &mut [Triple]) -> Real {
     let Group { ties, places, masses, .. } = group;
-    let Ties { list, rows, factor, wanted, solved, change, links, .. } = ties;
+    let Ties { list, rows, solver, wanted, solved, change, links, .. } = ties;
     wanted.clear();
     wanted.resize(links.len(), [0.0; 3]);
     solved.clear();
@@ -118,7 +121,7 @@ fn shift(group: &mut Group, total: &mut [Triple]) -> Real {
                 -gap(&tie.middle.rows[k], &tie.end.rows[k], impulse);
         }
     }
-    factor.solve(wanted, solved, change);
+    solver.solve(wanted, SWEEPS, solved, change);
     let turn = change.iter().map(|change| change.angular.abs()).fold(0.0, Real::max);
     let part = if turn > MOST_TURN { MOST_TURN / turn } else { 1.0 };
     for (sum, own) in total.iter_mut().zip(&*solved) {

@@ -19,7 +19,8 @@ use crate::constraints::{Place, Velocity};
 use crate::forces::Ledger;
 use crate::joint::ROWS;
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, cross, vec2};
-use crate::solvers::direct::{self, Factor, Link, Triple};
+use crate::solvers::direct::{self, Link, Triple};
+use crate::solvers::links::LinkSolver;
 use active::Row;
 
 /// A joint of a group.
@@ -72,13 +73,13 @@ impl Tie {
 pub struct Ties {
     /// The joints.
     pub list: Vec<Tie>,
-    /// Factors of the rows; kept apart for each group between steps, since the graph rarely changes.
-    pub factor: Factor,
+    /// Solves the rows; kept apart for each group between steps, since the graph rarely changes.
+    pub solver: LinkSolver,
     rows: Vec<Row>,
     links: Vec<Link>,
     nodes: Vec<direct::Rows>,
-    /// What the factors are of; nothing where they are none of the present geometry.
-    factored: Option<Vec<[bool; 3]>>,
+    /// Rows that the solver has; nothing where they are none of the present geometry.
+    prepared: Option<Vec<[bool; 3]>>,
     /// Velocities at the start of the substep.
     before: Vec<Twist>,
     /// Sums over the springs of each slot.
@@ -134,7 +135,7 @@ impl Bodies<'_> {
 /// Begins a step.
 pub fn start(group: &mut Group) {
     let Group { ties, velocities, places, angles, .. } = group;
-    let Ties { list, links, factor, rows, .. } = ties;
+    let Ties { list, links, solver, rows, .. } = ties;
     if list.is_empty() {
         return;
     }
@@ -149,7 +150,7 @@ pub fn start(group: &mut Group) {
             links.push(tie.slots);
         }
     }
-    factor.analyse(velocities.len(), links);
+    solver.analyse(velocities.len(), links);
 }
 
 /// Begins a substep.
@@ -168,7 +169,7 @@ pub fn place(group: &mut Group) {
     for tie in &mut ties.list {
         tie.middle = tie.law.rows(&bodies.pair(tie));
     }
-    ties.factored = None;
+    ties.prepared = None;
 }
 
 /// Books what joints did in the substep, and returns what they gave the bodies that give way (J). With the velocities at

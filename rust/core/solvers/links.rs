@@ -1,0 +1,58 @@
+//! The rows of an island's links: by factors of all at once, or by sweeps where those would cost too much.
+
+use super::direct::{Factor, Link, Rows, Triple};
+use super::relaxed::Relaxed;
+use crate::constraints::Velocity;
+use crate::math::Twist;
+
+/// Solves J M⁻¹ Jᵀ λ + Σ λ = b on the links of an island.
+#[derive(Clone, Debug, Default)]
+pub struct LinkSolver {
+    factor: Factor,
+    relaxed: Relaxed,
+    by_sweeps: bool,
+}
+
+/// Block products a link from which on sweeps are cheaper: a chain or tree takes 3, a square lattice of 30 × 30
+/// about 60, of 100 × 100 about 300.
+const DEAR: usize = 150;
+
+impl LinkSolver {
+    /// Prepares for the links of so many bodies. Cheap if they are those of last time.
+    pub fn analyse(&mut self, bodies: usize, links: &[Link]) {
+        if self.factor.analyse(bodies, links) {
+            self.by_sweeps = self.factor.work() > DEAR * links.len();
+        }
+    }
+
+    /// Whether sweeps solve the rows, hence only approximately.
+    #[must_use]
+    pub fn by_sweeps(&self) -> bool {
+        self.by_sweeps
+    }
+
+    /// Takes rows, one item a link as analysed, on bodies of these inverse masses.
+    pub fn prepare(&mut self, bodies: &[Velocity], links: &[Link], rows: &[Rows]) {
+        if self.by_sweeps {
+            self.relaxed.prepare(bodies, links, rows);
+        } else {
+            self.factor.factor(bodies, rows);
+        }
+    }
+
+    /// Solves for λ near 0 and writes v = M⁻¹ Jᵀ λ; `sweeps` to and fro where it sweeps.
+    pub fn solve(
+        &mut self,
+        b: &[Triple],
+        sweeps: u32,
+        impulses: &mut [Triple],
+        twists: &mut [Twist],
+    ) {
+        if self.by_sweeps {
+            self.relaxed.solve(b, sweeps, impulses, twists);
+        } else {
+            impulses.fill([0.0; 3]);
+            self.factor.solve(b, impulses, twists);
+        }
+    }
+}

@@ -1,3 +1,0 @@
-//! Joints: what they hold, and what they keep.
-mod common;
-mod trial;
