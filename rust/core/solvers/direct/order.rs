@@ -20,6 +20,8 @@ pub(super) struct Elimination {
     /// Nodes that may be eliminated, by degree, then number; entries whose degree has changed are stale.
     queue: BinaryHeap<Reverse<(usize, u32)>>,
     done: Vec<bool>,
+    /// Nodes whose neighbours are known to be all tied to one another: when such a one goes, no tie is new.
+    simplicial: Vec<bool>,
     merged: Vec<u32>,
 }
 
@@ -37,7 +39,13 @@ impl Elimination {
             self.order.push(node);
             let clique = mem::take(&mut self.neighbours[k]);
             for &other in &clique {
-                self.join(other, node, &clique);
+                if self.simplicial[k] {
+                    self.untie(other, node);
+                } else {
+                    self.join(other, node, &clique);
+                }
+                self.simplicial[other as usize] |=
+                    self.neighbours[other as usize].len() + 1 == clique.len();
                 // A link that is tied to something has lost a body by now, be it this one.
                 self.queue.push(Reverse((self.neighbours[other as usize].len(), other)));
             }
@@ -50,6 +58,8 @@ impl Elimination {
         self.order.clear();
         self.done.clear();
         self.done.resize(count, false);
+        self.simplicial.clear();
+        self.simplicial.resize(count, false);
         self.neighbours.resize_with(count, Vec::new);
         self.neighbours.iter_mut().for_each(Vec::clear);
         for (link, ends) in (bodies as u32..).zip(links) {
@@ -64,9 +74,17 @@ impl Elimination {
         }
         for node in 0..count {
             let degree = self.neighbours[node].len();
+            self.simplicial[node] = degree < 2;
             if node < bodies || degree == 0 {
                 self.queue.push(Reverse((degree, node as u32)));
             }
+        }
+    }
+
+    fn untie(&mut self, node: u32, gone: u32) {
+        let own = &mut self.neighbours[node as usize];
+        if let Ok(place) = own.binary_search(&gone) {
+            own.remove(place);
         }
     }
 

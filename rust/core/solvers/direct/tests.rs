@@ -403,6 +403,19 @@ fn rows_that_nothing_can_solve_give_no_nan() {
 }
 
 #[test]
+fn rows_that_contradict_one_another_are_told_and_meet_in_the_middle() {
+    let mut island = Island::default();
+    let body = Some(island.body(1.0));
+    for x in [0.0, 1.0] {
+        island.pin([None, body], [[0.0; 2]; 2]);
+        island.b.last_mut().expect("just added")[0] = x;
+    }
+    let answer = island.solve();
+    assert!((answer.error - 0.5).abs() <= 1e-6, "{answer:?}");
+    assert!((answer.twists[0].linear.x - 0.5).abs() <= 1e-6, "{answer:?}");
+}
+
+#[test]
 fn the_same_rows_give_the_same_bits() {
     let (mut dice, mut used) = (Dice(7), Factor::default());
     let (first, second) = (dice.island(9, 4, 12.0), dice.island(30, 9, 3.0));
@@ -424,6 +437,27 @@ fn trees_cost_as_many_products_as_they_have_links() {
     // Nothing is filled in: one block an end, and each is multiplied once.
     let tree = Dice(3).island(500, 0, 1.0);
     assert_eq!(operations(&tree), 2 * (2 * 500 - 1));
+}
+
+#[test]
+fn a_link_goes_after_a_body_of_its_own_and_blocks_hold_all_fill() {
+    let mut dice = Dice(11);
+    for island in [chain(9, 1.0), lattice(6), dice.island(30, 20, 1.0), dice.island(9, 40, 1.0)] {
+        let mut factor = Factor::default();
+        factor.analyse(island.bodies.len(), &island.links);
+        let structure = &factor.structure;
+        for (k, link) in island.links.iter().enumerate() {
+            let own = structure.columns[island.bodies.len() + k];
+            assert!(link.iter().flatten().any(|body| structure.columns[*body as usize] < own));
+        }
+        for column in 0..structure.len() {
+            let below = &structure.rows[structure.below(column)];
+            for (first, row) in below.iter().enumerate() {
+                let rows = &structure.rows[structure.below(*row as usize)];
+                assert!(below[first + 1..].iter().all(|other| rows.contains(other)), "{column}");
+            }
+        }
+    }
 }
 
 #[test]
