@@ -30,6 +30,15 @@ pub enum Error {
         #[source]
         source: Box<dyn std::error::Error + Send + Sync>,
     },
+    /// A joint of the user's own failed; nothing was stepped.
+    #[error("joint {name:?} failed: {source}")]
+    Joint {
+        /// The joint's name.
+        name: String,
+        /// What it reported.
+        #[source]
+        source: BoxError,
+    },
     /// A contact hook of the user's failed; nothing was stepped.
     #[error("a contact hook failed: {source}")]
     Hook {
@@ -84,6 +93,9 @@ pub enum Error {
         source: std::io::Error,
     },
 }
+
+/// An error of the user's own code.
+pub type BoxError = Box<dyn std::error::Error + Send + Sync>;
 
 /// Result with the engine's error.
 pub type Result<T> = std::result::Result<T, Error>;

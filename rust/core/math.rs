@@ -82,6 +82,12 @@ pub fn ln_1p(x: Real) -> Real {
     libm::log1p(x)
 }
 
+/// ln x.
+#[must_use]
+pub fn ln(x: Real) -> Real {
+    libm::log(x)
+}
+
 /// √(x² + y²) without overflow on the way.
 #[must_use]
 pub fn hypot(x: Real, y: Real) -> Real {

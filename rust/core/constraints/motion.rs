@@ -22,6 +22,12 @@ impl Velocity {
         Self { twist, inverse_mass: mass.inverse, inverse_inertia: mass.inverse_inertia }
     }
 
+    /// 1/m along x and y, 1/I.
+    #[must_use]
+    pub fn inverse(&self) -> [Real; 3] {
+        [self.inverse_mass.x, self.inverse_mass.y, self.inverse_inertia]
+    }
+
     /// Whether no impulse moves the body.
     #[must_use]
     pub fn is_fixed(&self) -> bool {

@@ -2,11 +2,9 @@
 
 use crate::arena::{Handle, HandleMap, Named};
 use crate::body::{Body, BodyHandle, Mass};
+pub use crate::error::BoxError;
 use crate::forces::library::BuiltInField;
 use crate::math::{Pose, Real, Twist, Wrench};
-
-/// An error of a user's own.
-pub type BoxError = Box<dyn std::error::Error + Send + Sync>;
 
 /// All bodies of the world at one moment, in body order.
 #[derive(Clone, Copy)]

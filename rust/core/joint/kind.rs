@@ -190,6 +190,8 @@ pub enum JointKind {
     },
     /// Nothing but that the two bodies do not touch.
     Filter,
+    /// Rows of the user's own code: see [`Constraint`](super::Constraint).
+    Custom,
 }
 
 fn one() -> Real {
@@ -215,6 +217,7 @@ impl JointKind {
             Self::Friction { .. } => "friction",
             Self::AngleSpring { .. } => "angle_spring",
             Self::Filter => "filter",
+            Self::Custom => "custom",
         }
     }
 
@@ -327,7 +330,7 @@ impl JointKind {
                 finite("angle", *angle)?;
                 spring.validated()
             }
-            Self::Filter => Ok(()),
+            Self::Filter | Self::Custom => Ok(()),
         }
     }
 }

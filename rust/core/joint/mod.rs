@@ -2,10 +2,12 @@
 //!
 //! What follows for the motion, the rows, stands in `constraints::joint`.
 
+mod custom;
 mod def;
 mod kind;
 mod spring;
 
+pub use custom::{Constraint, Custom, CustomRow};
 pub use def::{Given, JointDef};
 pub use kind::{JointKind, Motor, Travel};
 pub use spring::{Coefficients, Hold, Spring};
@@ -41,6 +43,9 @@ pub struct Joint {
     pub reaction: Wrench,
     /// The notch at which a ratchet stands (rad).
     pub notch: Real,
+    /// The user's own rows, of a custom joint.
+    #[serde(skip)]
+    pub custom: Option<Custom>,
 }
 
 impl Joint {

@@ -18,7 +18,7 @@ mod stepper;
 pub use bodies::{BodyMut, BodyRef};
 pub use columns::Column;
 pub use contacts::{Contact, ContactEvent, ContactHooks, Events, PreSolve, ShapeView};
-pub use joints::{BrokenJoint, JointRef};
+pub use joints::{BrokenJoint, JointRef, SpringMotion};
 pub use plan::Plan;
 pub use queries::{Nearest, QueryFilter, RayHit, ShapeId, distance_between};
 pub use report::{StageTime, StepReport, Trajectory};

@@ -3,6 +3,7 @@
 use crate::body::BodyHandle;
 use crate::error::Result;
 use crate::math::{Real, Twist};
+use crate::world::joints::tied;
 use crate::world::{State, World};
 
 /// A body is slow below this part of √(aℓ), the speed that its acceleration a gives it over its size ℓ: 3 cm/s for a
@@ -92,7 +93,7 @@ impl World {
         self.wake_islands(&numbers);
     }
 
-    /// Wakes a body whose motion or forces are set; if that is not free, what it may touch.
+    /// Wakes a body whose motion or forces are set; if that is not free, what it may touch or is joined to.
     pub(super) fn pushed(&mut self, body: usize) {
         let State { bodies, contacts, .. } = &mut self.state;
         contacts.sleep.slow[body] = 0.0;
@@ -106,25 +107,34 @@ impl World {
         self.wake_islands(number.as_slice());
     }
 
-    /// Wakes a body that is put elsewhere or changed, and what it touched or touches.
+    /// Wakes a body that is put elsewhere or changed, what it touched or touches, and what is joined to it.
     pub(super) fn disturbed(&mut self, body: usize) {
-        let State { bodies, contacts, .. } = &mut self.state;
+        let State { bodies, contacts, joints, .. } = &mut self.state;
         contacts.sleep.slow[body] = 0.0;
-        if contacts.sleep.count > 0 {
-            let numbers = contacts.islands_around(bodies, body);
-            self.wake_islands(&numbers);
+        if contacts.sleep.count == 0 {
+            return;
         }
+        let mut numbers = contacts.islands_around(bodies, body);
+        for [i, j] in joints.values().iter().filter_map(|joint| tied(bodies, joint)) {
+            if i as usize == body || j as usize == body {
+                numbers.extend([i, j].iter().filter_map(|i| contacts.island_of(*i as usize)));
+            }
+        }
+        numbers.sort_unstable();
+        numbers.dedup();
+        self.wake_islands(&numbers);
     }
 
-    /// Lets a body sleep with all that it touched after the last step and that can move, if sleeping is on and no
+    /// Lets a body sleep with all that it touched after the last step or is joined to and that can move, if sleeping is on and no
     /// field acts. What cannot move stays as it is.
     pub(super) fn lay_down(&mut self, body: usize) {
         let allowed = self.state.settings.sleeping && self.fields.is_empty();
-        let State { bodies, contacts, ledger, .. } = &mut self.state;
+        let State { bodies, contacts, joints, ledger, .. } = &mut self.state;
         if !allowed || contacts.is_asleep(body) || !bodies.masses[body].is_free() {
             return;
         }
-        let members = contacts.tied_to(bodies, body);
+        let joined = joints.values().iter().filter_map(|joint| tied(bodies, joint));
+        let members = contacts.tied_to(bodies, body, joined);
         ledger.dissipated += contacts.lay_down(bodies, members);
         contacts.put_aside(bodies);
         self.plan = None;

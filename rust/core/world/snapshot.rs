@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::BodyHandle;
 use crate::error::{Error, Result};
 use crate::forces::{BuiltInField, FieldHandle, ForceField, Schedule, ScheduleHandle};
+use crate::joint::{Constraint, Custom, Joint, JointKind};
 use crate::math::Real;
 use crate::methods;
 use crate::world::{State, World};
@@ -103,6 +104,19 @@ impl Snapshot {
     /// # Errors
     /// Bytes that are no snapshot of this version, or fewer or more fields than it had.
     pub fn from_bytes(bytes: &[u8], own: Vec<Arc<dyn ForceField>>) -> Result<Self> {
+        Self::from_bytes_with(bytes, own, Vec::new())
+    }
+
+    /// The same for a world with joints of the user's own, whose constraints are handed again in the order in which the joints
+    /// stand among the world's.
+    ///
+    /// # Errors
+    /// Those of [`Snapshot::from_bytes`], and fewer or more constraints than it had.
+    pub fn from_bytes_with(
+        bytes: &[u8],
+        own: Vec<Arc<dyn ForceField>>,
+        constraints: Vec<Arc<dyn Constraint>>,
+    ) -> Result<Self> {
         let wrong = |got: String| {
             Error::invalid(
                 "snapshot",
@@ -129,10 +143,25 @@ impl Snapshot {
                 None => fields.extend(own.next()),
             }
         }
+        hand(stored.state.joints.values_mut(), constraints)?;
         stored.state.bodies.rebuild();
         stored.state.contacts.rebuild(&stored.state.bodies);
         Ok(Self { state: stored.state, fields })
     }
+}
+
+/// Gives custom joints their constraints.
+fn hand(joints: &mut [Joint], constraints: Vec<Arc<dyn Constraint>>) -> Result<()> {
+    let mut own: Vec<_> =
+        joints.iter_mut().filter(|joint| joint.def.kind == JointKind::Custom).collect();
+    if own.len() != constraints.len() {
+        let got = format!("{} constraints", constraints.len());
+        return Err(Error::invalid("joints of the snapshot", got, format!("{}", own.len())));
+    }
+    for (joint, constraint) in own.iter_mut().zip(constraints) {
+        joint.custom = Some(Custom::new(constraint)?);
+    }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -71,7 +71,7 @@ impl World {
         }
         if self.joins() {
             self.stage("joints", |world| {
-                world.settle_joints();
+                world.settle_joints()?;
                 world.planned();
                 Ok(())
             })?;

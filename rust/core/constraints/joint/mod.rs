@@ -9,13 +9,10 @@ mod custom;
 mod rows;
 mod soft;
 
-pub use custom::{Constraint, CustomRow};
 pub use rows::{Row, Rows};
-pub use soft::{Gains, Rates};
+pub use soft::{Gains, Rates, Swing};
 
-use std::sync::Arc;
-
-use crate::joint::{Coefficients, JointKind, ROWS};
+use crate::joint::{Coefficients, Custom, JointKind, ROWS};
 use crate::math::{Real, Rot, Twist, Vec2};
 
 /// What a row does with its coordinate.
@@ -50,7 +47,7 @@ pub struct Pair {
 }
 
 /// A joint as rows see it: what it does and where it holds.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Law {
     /// What it does.
     pub kind: JointKind,
@@ -60,12 +57,8 @@ pub struct Law {
     pub springs: [Option<Coefficients>; ROWS],
     /// The notch at which a ratchet stands (rad).
     pub notch: Real,
+    /// Centres of mass in the bodies' frames, which the user's own rows are written for (m).
+    pub locals: [Vec2; 2],
     /// The user's own rows.
-    pub custom: Option<Arc<dyn Constraint>>,
-}
-
-impl std::fmt::Debug for Law {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Law").field("kind", &self.kind).finish_non_exhaustive()
-    }
+    pub custom: Option<Custom>,
 }

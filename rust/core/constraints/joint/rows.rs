@@ -37,6 +37,13 @@ impl Row {
             + (jb[0] * b.linear.x + jb[1] * b.linear.y + jb[2] * b.angular)
     }
 
+    /// J M⁻¹ Jᵀ of one side, for inverse masses along x, y and about the centre.
+    #[must_use]
+    pub fn response(&self, side: usize, [x, y, turn]: [Real; 3]) -> Real {
+        let [jx, jy, jt] = self.jacobian[side];
+        jx * jx * x + jy * jy * y + jt * jt * turn
+    }
+
     /// The same row seen the other way round.
     fn reversed(self) -> Self {
         Self {
@@ -47,7 +54,7 @@ impl Row {
         }
     }
 
-    fn acting(self, action: Action) -> Self {
+    pub(super) fn acting(self, action: Action) -> Self {
         Self { action, ..self }
     }
 
@@ -71,7 +78,7 @@ impl Rows {
     /// No row.
     pub const NONE: Self = Self { rows: [Row::OFF; ROWS], count: 0, disc: false };
 
-    fn push(&mut self, row: Row) {
+    pub(super) fn push(&mut self, row: Row) {
         self.rows[self.count] = row;
         self.count += 1;
     }
@@ -273,6 +280,7 @@ impl Law {
                 out.push(angle_row(*angle).acting(spring));
             }
             JointKind::Filter => {}
+            JointKind::Custom => self.own_rows(pair, &mut out),
         }
         out
     }

@@ -13,7 +13,7 @@
 //! β ≥ 1/4, stable for all ωh.
 
 use crate::joint::Coefficients;
-use crate::math::{PI, Real, cos, exp, exp_m1};
+use crate::math::{PI, Real, atan2, cos, exp, exp_m1, ln};
 
 /// Bounds of the modes that the springs around a row may have together: ω² (1/s²) and Γ (1/s).
 ///
@@ -59,6 +59,46 @@ impl Gains {
         let taken = if decay > 0.0 { lost / (scale * decay) } else { 1.0 / scale };
         let after = stiffness * k * h * h + damping * c * h;
         Self { pull: -h * k, before: after - taken * c * h, after }
+    }
+}
+
+/// How what hangs on a spring moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Swing {
+    /// Frequency ω/2π of the undamped swing (Hz).
+    pub hertz: Real,
+    /// ζ = Γ/2ω.
+    pub damping_ratio: Real,
+}
+
+impl Swing {
+    /// By the law: ω² = k/m, Γ = c/m of a spring on an effective mass (kg, kg·m²).
+    #[must_use]
+    pub fn exact(spring: &Coefficients, mass: Real) -> Self {
+        let omega = (spring.stiffness / mass).sqrt();
+        let ratio = if omega > 0.0 { spring.damping / (2.0 * mass * omega) } else { 0.0 };
+        Self { hertz: omega / (2.0 * PI), damping_ratio: ratio }
+    }
+
+    /// As steps of length h with these gains make it: from the eigenvalues of drift–kick–drift.
+    #[must_use]
+    pub fn stepped(gains: &Gains, mass: Real, h: Real) -> Self {
+        let scale = 1.0 / (1.0 + gains.after / mass);
+        let product = (1.0 + gains.before / mass) * scale;
+        let half = 0.5 * (1.0 + h * gains.pull * scale / mass + product);
+        let square = half * half - product;
+        let (decay, omega_square) = if square < 0.0 {
+            let (decay, turn) = (-0.5 * ln(product) / h, atan2((-square).sqrt(), half) / h);
+            (decay, turn * turn + decay * decay)
+        } else {
+            let rate = |value: Real| -ln(value.abs()) / h;
+            let far = half + square.sqrt().copysign(half);
+            let [slow, fast] = [rate(far), rate(product / far)];
+            (0.5 * (slow + fast), slow * fast)
+        };
+        let omega = omega_square.max(0.0).sqrt();
+        let ratio = if omega > 0.0 { decay / omega } else { 0.0 };
+        Self { hertz: omega / (2.0 * PI), damping_ratio: ratio }
     }
 }
 
@@ -111,6 +151,22 @@ mod tests {
                     assert!((b - exp(-c * h)).abs() < 1e-12, "{omega} {zeta} {h}");
                     assert!((trace - exact).abs() < 1e-10, "{omega} {zeta} {h}: {trace} {exact}");
                 }
+            }
+        }
+    }
+
+    /// What is read back of a lone spring is what was asked for, as long as a step resolves it.
+    #[test]
+    fn the_swing_of_a_lone_spring_is_the_one_asked_for() {
+        let (mass, h) = (3.0, 1.0 / 240.0);
+        for (hertz, ratio) in [(1.0, 0.0), (5.0, 0.1), (20.0, 0.7), (2.0, 1.5)] {
+            let spring = crate::joint::Spring::new(hertz, ratio).coefficients(mass);
+            let rates =
+                Rates { stiffness: spring.stiffness / mass, damping: spring.damping / mass };
+            let gains = Gains::new(&spring, &rates, h);
+            for swing in [Swing::exact(&spring, mass), Swing::stepped(&gains, mass, h)] {
+                assert!((swing.hertz / hertz - 1.0).abs() < 1e-9, "{swing:?}");
+                assert!((swing.damping_ratio - ratio).abs() < 1e-9, "{swing:?}");
             }
         }
     }

@@ -310,12 +310,18 @@ impl Contacts {
         })
     }
 
-    /// A body and all that are tied to it by what touched after the last step and moves.
-    pub fn tied_to(&self, bodies: &Bodies, body: usize) -> Vec<u32> {
+    /// A body and all that are tied to it by joints or by what touched after the last step and moves.
+    pub fn tied_to(
+        &self,
+        bodies: &Bodies,
+        body: usize,
+        joined: impl Iterator<Item = [u32; 2]>,
+    ) -> Vec<u32> {
         let mut members = vec![body as u32];
         let mut tied: Vec<[u32; 2]> = (self.near.iter())
             .filter(|near| near.touching && near.kind != Kind::Sensor)
             .map(|near| near.proxies.map(|proxy| self.body_of(proxy)))
+            .chain(joined)
             .filter(|pair| {
                 pair.iter()
                     .all(|i| bodies.masses[*i as usize].is_free() && !self.is_asleep(*i as usize))

@@ -1,14 +1,14 @@
 //! From a definition to a joint: what was left open is taken from where the bodies stand.
 
-use super::{law_of, pair_of};
+use super::{index_of, law_of, pair_of};
 use crate::body::Bodies;
-use crate::constraints::joint::{Action, Law, Pair};
+use crate::constraints::joint::{Action, Law, Pair, Row};
 use crate::error::{Error, Result};
-use crate::joint::{Given, Joint, JointDef, JointKind, ROWS};
+use crate::joint::{Custom, Given, Joint, JointDef, JointKind, ROWS};
 use crate::math::{Pose, Real, Wrench, floor};
 
 /// Checks a definition and makes the joint.
-pub(super) fn joint(bodies: &Bodies, mut def: JointDef) -> Result<Joint> {
+pub(super) fn joint(bodies: &Bodies, mut def: JointDef, custom: Option<Custom>) -> Result<Joint> {
     def.validated()?;
     let places = places(bodies, &def)?;
     let frames = places.map(|i| i.map_or(Pose::IDENTITY, |i| bodies.origin(i)));
@@ -31,6 +31,7 @@ pub(super) fn joint(bodies: &Bodies, mut def: JointDef) -> Result<Joint> {
         substep: 0.0,
         reaction: Wrench::ZERO,
         notch: 0.0,
+        custom,
     };
     let pair = pair_of(bodies, &joint);
     close(&mut joint, bodies, &pair);
@@ -89,7 +90,8 @@ fn close(joint: &mut Joint, bodies: &Bodies, pair: &Pair) {
         JointKind::Wheel { .. }
         | JointKind::Grab { .. }
         | JointKind::Friction { .. }
-        | JointKind::Filter => {}
+        | JointKind::Filter
+        | JointKind::Custom => {}
     }
 }
 
@@ -101,18 +103,23 @@ pub(in crate::world) fn notch(angle: Real, step: Real, phase: Real) -> Real {
 /// Springs by frequency get their coefficients from the effective mass 1/(J M⁻¹ Jᵀ) of their rows.
 fn tune(joint: &mut Joint, bodies: &Bodies, pair: &Pair) {
     let law: Law = law_of(bodies, joint);
-    let masses = [0, 1].map(|side| super::index_of(bodies, joint, side).map(|i| &bodies.masses[i]));
     for (k, row) in law.rows(pair).as_slice().iter().enumerate() {
         let (Action::Spring(_), Some(spring)) = (row.action, joint.def.kind.spring(k)) else {
             continue;
         };
-        let response = |side: usize| {
-            let [x, y, turn] = row.jacobian[side];
-            masses[side].map_or(0.0, |mass| {
-                x * x * mass.inverse.x + y * y * mass.inverse.y + turn * turn * mass.inverse_inertia
-            })
-        };
-        let sum: Real = response(0) + response(1);
-        joint.springs[k] = Some(spring.coefficients(if sum > 0.0 { 1.0 / sum } else { 0.0 }));
+        let mass = effective_mass(row, bodies, joint);
+        joint.springs[k] = Some(spring.coefficients(mass));
     }
+}
+
+/// 1/(J M⁻¹ Jᵀ) of a row (kg, kg·m²); 0 where nothing gives way.
+pub(super) fn effective_mass(row: &Row, bodies: &Bodies, joint: &Joint) -> Real {
+    let sum: Real = (0..2)
+        .filter_map(|side| {
+            let mass = &bodies.masses[index_of(bodies, joint, side)?];
+            let inverse = [mass.inverse.x, mass.inverse.y, mass.inverse_inertia];
+            Some(row.response(side, inverse))
+        })
+        .sum();
+    if sum > 0.0 { 1.0 / sum } else { 0.0 }
 }

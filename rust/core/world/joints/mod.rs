@@ -2,14 +2,19 @@
 
 mod make;
 mod step;
+mod swings;
+
+pub use swings::SpringMotion;
 
 pub(super) use step::{Memory, keep, tie, tied};
 
+use std::sync::Arc;
+
 use crate::body::{Bodies, BodyHandle};
 use crate::constraints::joint::{Action, Law, Pair, Rows};
-use crate::error::Result;
-use crate::joint::{Joint, JointDef, JointHandle, JointKind};
-use crate::math::{Real, Rot, Twist, Vec2, Wrench, vec2};
+use crate::error::{Error, Result};
+use crate::joint::{Constraint, Custom, Joint, JointDef, JointHandle, JointKind};
+use crate::math::{Pose, Real, Rot, Twist, Vec2, Wrench, vec2};
 use crate::world::{State, World};
 
 /// A joint that broke in the last call: it bore more than it may, and is no longer in the world.
@@ -33,7 +38,35 @@ impl World {
     /// [`crate::Error::Invalid`] for a number that is not allowed, one body twice, or no body that can move;
     /// [`crate::Error::StaleHandle`] for a body that is gone. The world stays as it was.
     pub fn add_joint(&mut self, def: JointDef) -> Result<JointHandle> {
-        let joint = make::joint(&self.state.bodies, def)?;
+        if def.kind == JointKind::Custom {
+            let allowed = "add_custom_joint, with the constraint";
+            return Err(Error::invalid("kind", "custom without a constraint", allowed));
+        }
+        self.insert_joint(make::joint(&self.state.bodies, def, None)?)
+    }
+
+    /// Adds a joint of the user's own. Its Jacobian is compared with differences of C, where the bodies stand.
+    ///
+    /// # Errors
+    /// Those of [`World::add_joint`]; a constraint that fails, or whose Jacobian is wrong.
+    pub fn add_custom_joint(
+        &mut self,
+        def: JointDef,
+        constraint: Arc<dyn Constraint>,
+    ) -> Result<JointHandle> {
+        let def = JointDef { kind: JointKind::Custom, ..def };
+        let custom = Custom::new(constraint)?;
+        let joint = make::joint(&self.state.bodies, def, Some(custom.clone()))?;
+        let frames = [0, 1].map(|side| {
+            index_of(&self.state.bodies, &joint, side)
+                .map_or(Pose::IDENTITY, |i| self.state.bodies.origin(i))
+        });
+        let size = (frames[1].position - frames[0].position).norm();
+        custom.check(&frames, if size > 0.0 { size } else { 1.0 })?;
+        self.insert_joint(joint)
+    }
+
+    fn insert_joint(&mut self, joint: Joint) -> Result<JointHandle> {
         let bodies = joint.def.bodies;
         let handle = self.state.joints.insert(joint);
         self.rejoin(bodies);
@@ -65,7 +98,7 @@ impl World {
         let before = self.state.joints.get(joint)?;
         let mut def = before.def.clone();
         edit(&mut def);
-        let mut changed = make::joint(&self.state.bodies, def)?;
+        let mut changed = make::joint(&self.state.bodies, def, before.custom.clone())?;
         let bodies = [before.def.bodies, changed.def.bodies];
         if changed.def.kind == before.def.kind && bodies[0] == bodies[1] {
             (changed.springs, changed.notch) = (before.springs, before.notch);
@@ -248,7 +281,11 @@ pub(super) fn law_of(bodies: &Bodies, joint: &Joint) -> Law {
         Some(i) => anchors[side] - bodies.local_centers[i],
         None => vec2(0.0, 0.0),
     });
-    Law { kind: joint.def.kind, arms, springs: joint.springs, notch: joint.notch, custom: None }
+    let locals = [0, 1].map(|side| {
+        index_of(bodies, joint, side).map_or_else(Vec2::zeros, |i| bodies.local_centers[i])
+    });
+    let custom = joint.custom.clone();
+    Law { kind: joint.def.kind, arms, springs: joint.springs, notch: joint.notch, locals, custom }
 }
 
 /// Where the centres of a joint's bodies stand in the world (m); of the world, its anchor.

@@ -2,6 +2,7 @@
 
 use super::{centers_of, index_of, law_of, make};
 use crate::body::Bodies;
+use crate::error::Result;
 use crate::joint::{Joint, JointKind, ROWS};
 use crate::math::{Real, Wrench};
 use crate::methods::contact_step::{Group, Tie};
@@ -69,8 +70,14 @@ pub(in crate::world) fn keep(joints: &mut [Joint], group: &Group, (duration, h):
 
 impl World {
     /// Moves ratchets on, and takes away joints that had to bear too much.
-    pub(in crate::world) fn settle_joints(&mut self) {
+    ///
+    /// # Errors
+    /// What the code of a custom joint reported.
+    pub(in crate::world) fn settle_joints(&mut self) -> Result<()> {
         let State { bodies, joints, .. } = &mut self.state;
+        for custom in joints.values().iter().filter_map(|joint| joint.custom.as_ref()) {
+            custom.take_fault()?;
+        }
         let mut broken = Vec::new();
         for k in 0..joints.values().len() {
             let (joint, handle) = (&joints.values()[k], joints.handles()[k]);
@@ -92,5 +99,6 @@ impl World {
         for handle in broken {
             self.break_joint(handle);
         }
+        Ok(())
     }
 }

@@ -264,14 +264,9 @@ fn turn_disc(tie: &Tie, rows: &mut [Row], velocities: &mut [Velocity], bound: Re
     let mut to = [0.0; 2];
     for (k, to) in to.iter_mut().enumerate() {
         let (row, now) = (&rows[k], &tie.middle.rows[k]);
-        let response: Real = (tie.slots.iter().zip(now.jacobian))
-            .filter_map(|(slot, [x, y, turn])| {
-                let body = &velocities[(*slot)? as usize];
-                Some(
-                    x * x * body.inverse_mass.x
-                        + y * y * body.inverse_mass.y
-                        + turn * turn * body.inverse_inertia,
-                )
+        let response: Real = (tie.slots.iter().enumerate())
+            .filter_map(|(side, slot)| {
+                Some(now.response(side, velocities[(*slot)? as usize].inverse()))
             })
             .sum();
         *to = row.impulse + missing(row, now, [&a, &b]) / (response + row.compliance);

@@ -85,12 +85,9 @@ fn sum_rates(ties: &mut Ties, velocities: &[Velocity]) {
     for tie in &ties.list {
         for row in tie.middle.as_slice() {
             let Action::Spring(spring) = row.action else { continue };
-            for (slot, [x, y, turn]) in tie.slots.iter().zip(row.jacobian) {
+            for (side, slot) in tie.slots.iter().enumerate() {
                 let Some(slot) = slot.map(|slot| slot as usize) else { continue };
-                let body = &velocities[slot];
-                let response = x * x * body.inverse_mass.x
-                    + y * y * body.inverse_mass.y
-                    + turn * turn * body.inverse_inertia;
+                let response = row.response(side, velocities[slot].inverse());
                 ties.rates[slot].stiffness += spring.stiffness * response;
                 ties.rates[slot].damping += spring.damping * response;
             }
