@@ -4,6 +4,7 @@
 
 mod common;
 mod invariance;
+mod joined;
 mod laws;
 mod rest;
 mod rollback;

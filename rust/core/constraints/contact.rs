@@ -254,10 +254,22 @@ impl Block {
             let row = |k: usize, side: usize| (directions[k], self.arms[k][side]);
             a.coupling(row(i, 0), row(j, 0)) + b.coupling(row(i, 1), row(j, 1))
         };
-        let r = [entry(0, 0), entry(1, 1), entry(0, 1), entry(0, 2), entry(1, 2), entry(2, 2)];
-        self.response = r;
+        self.respond([
+            entry(0, 0),
+            entry(1, 1),
+            entry(0, 1),
+            entry(0, 2),
+            entry(1, 2),
+            entry(2, 2),
+        ]);
+    }
+
+    /// Takes a response J M⁻¹ Jᵀ (00, 11, 01, 0t, 1t, tt) and its inverse over the rows that are on.
+    pub fn respond(&mut self, response: [Real; 6]) {
+        self.response = response;
+        let r = &self.response;
         self.inverse = match self.on {
-            [true, true] => inverse_of_three(&r),
+            [true, true] => inverse_of_three(r),
             [true, false] => inverse_of_two(r[0], r[3], r[5])
                 .map_or([0.0; 6], |[i, c, t]| [i, 0.0, 0.0, c, 0.0, t]),
             [false, true] => inverse_of_two(r[1], r[4], r[5])

@@ -55,6 +55,8 @@ pub struct Watch {
     seen: Vec<u32>,
     /// Time since which each slot is on its present way, from the middle of the substep (s).
     since: Vec<Real>,
+    /// Slots that the last impact moved.
+    struck: Vec<u32>,
     /// The rows are solved: swift bodies alone are looked at, and no kick is to come.
     after_rows: bool,
 }
@@ -175,13 +177,12 @@ fn strike_all(
             break;
         }
         left -= 1;
-        strike(group, (&event, watch.after_rows), law, outcome);
-        let free = bodies.map(|slot| !group.velocities[slot as usize].is_fixed());
-        for slot in (0..2).filter(|side| free[*side]).map(|side| bodies[side] as usize) {
-            watch.seen[slot] += 1;
-            watch.since[slot] = event.time;
+        strike(group, watch, &event, law, outcome);
+        for slot in &watch.struck {
+            watch.seen[*slot as usize] += 1;
+            watch.since[*slot as usize] = event.time;
         }
-        for slot in (0..2).filter(|side| free[*side]).map(|side| bodies[side] as usize) {
+        for slot in watch.struck.iter().map(|slot| *slot as usize) {
             let [from, until] = [0, 1].map(|k| watch.first[slot + k] as usize);
             for k in from..until {
                 queue.extend(next_event(group, (watch, around), watch.of_slot[k], to));
@@ -281,16 +282,22 @@ fn pair(group: &Group, k: usize, kicked: bool) -> Pair<'_> {
 /// One impact.
 fn strike(
     group: &mut Group,
-    (event, kicked): (&Event, bool),
+    watch: &mut Watch,
+    event: &Event,
     law: ImpactLaw,
     outcome: &mut Outcome,
 ) {
-    let k = event.block as usize;
+    let (k, kicked) = (event.block as usize, watch.after_rows);
     if group.links[k].watched == Watched::Swift {
         let link = &mut group.links[k];
         (link.manifold, link.met, link.apart_now) = (link.found, true, false);
     }
     let (link, time) = (group.links[k], event.time);
+    let joined = group.ties.joins(&group.blocks[k]);
+    watch.struck.clear();
+    if joined {
+        outcome.ledger.dissipated -= hold_still(group, watch, time);
+    }
     let pair = pair(group, k, kicked);
     let (places, velocities) = (pair.places_at(time), pair.velocities_at(time));
     let bodies = [&velocities[0], &velocities[1]];
@@ -310,15 +317,26 @@ fn strike(
         block.on[p] = touches && u[p] < 0.0;
         restitution[p] = if -u[p] > link.resting[p] { link.restitution } else { 0.0 };
     }
-    block.prepare(bodies);
+    if joined {
+        group.ties.respond(&group.velocities, &mut block);
+    } else {
+        block.prepare(bodies);
+    }
     let impulse = law::impulses(law, &block, u, restitution);
 
     outcome.impacts += 1;
-    outcome.ledger.dissipated -= law::gain(&block, &u, &impulse);
-    if group.driven {
-        let given = super::group::driving_work(&block, (&impulse, link.tangent_speed), bodies);
-        outcome.ledger.work += given;
-    }
+    let given = if group.driven {
+        super::group::driving_work(&block, (&impulse, link.tangent_speed), bodies)
+    } else {
+        0.0
+    };
+    outcome.ledger.work += given;
+    outcome.ledger.dissipated -= if joined {
+        push_all(group, watch, &impulse, time) - given
+    } else {
+        push_two(group, watch, (&block, &impulse), time);
+        law::gain(&block, &u, &impulse)
+    };
     let hit = &mut group.links[k].hit;
     hit.impulse += impulse[0] + impulse[1];
     if event.approach > hit.approach {
@@ -327,14 +345,73 @@ fn strike(
         let points = struck.clone().map(|p| at.surface_point(&link.manifold, p));
         hit.point = places[0].way + points.sum::<Vec2>() / struck.count().max(1) as Real;
     }
-    let [a, b] = block.bodies;
-    let before = [a, b].map(|slot| group.velocities[slot as usize].twist);
-    block.push(crate::solvers::sweep::pair(&mut group.velocities, [a, b]), impulse);
-    for (slot, before) in [a, b].into_iter().zip(before) {
-        let now = group.velocities[slot as usize].twist;
-        let change = Twist::new(now.linear - before.linear, now.angular - before.angular);
+}
+
+/// Gives the two bodies of a block an impact's impulses, and notes who was moved.
+fn push_two(
+    group: &mut Group,
+    watch: &mut Watch,
+    (block, impulse): (&Block, &[Real; 3]),
+    time: Real,
+) {
+    let before = block.bodies.map(|slot| group.velocities[slot as usize]);
+    block.push(crate::solvers::sweep::pair(&mut group.velocities, block.bodies), *impulse);
+    for (slot, before) in block.bodies.into_iter().zip(&before) {
+        let (now, old) = (group.velocities[slot as usize].twist, &before.twist);
+        let change = Twist::new(now.linear - old.linear, now.angular - old.angular);
         group.places[slot as usize].drift(&change, -time);
+        if !before.is_fixed() {
+            watch.struck.push(slot);
+        }
     }
+}
+
+/// Gives all bodies what an impact's impulses and the joints' answers to them change. Returns the kinetic energy that they
+/// gain (J).
+fn push_all(group: &mut Group, watch: &mut Watch, impulse: &[Real; 3], time: Real) -> Real {
+    let ties = &group.ties;
+    let change = |slot: usize| {
+        let mut sum = Twist::ZERO;
+        for (row, p) in impulse.iter().enumerate() {
+            let unit = ties.carried(row, slot);
+            sum += Twist::new(unit.linear * *p, unit.angular * p);
+        }
+        sum
+    };
+    let changes: Vec<Twist> = (0..group.velocities.len()).map(change).collect();
+    change_all(group, watch, &changes, time)
+}
+
+/// Lets rigid rows hold at the moment of an impact. Returns the kinetic energy that the bodies gain (J).
+fn hold_still(group: &mut Group, watch: &mut Watch, time: Real) -> Real {
+    let mut velocities = group.velocities.clone();
+    let since = if watch.after_rows { time - 0.5 * group.h } else { time };
+    for (velocity, place) in velocities.iter_mut().zip(&group.places) {
+        velocity.twist += place.kick(since);
+    }
+    let changes = group.ties.still(&velocities).to_vec();
+    change_all(group, watch, &changes, time)
+}
+
+/// Changes the velocities of all bodies at the moment of an impact, and notes who was moved. Returns the kinetic
+/// energy that they gain (J).
+fn change_all(group: &mut Group, watch: &mut Watch, changes: &[Twist], time: Real) -> Real {
+    let Group { velocities, places, masses, h, .. } = group;
+    // As Pair::velocities_at has it.
+    let since = if watch.after_rows { time - 0.5 * *h } else { time };
+    let mut gained = 0.0;
+    for (slot, change) in changes.iter().enumerate().filter(|(_, change)| **change != Twist::ZERO) {
+        let mut mean = velocities[slot].twist;
+        mean += places[slot].kick(since);
+        mean += Twist::new(change.linear * 0.5, change.angular * 0.5);
+        gained += masses[slot].work(change, &mean);
+        velocities[slot].twist += *change;
+        places[slot].drift(change, -time);
+        if !watch.struck.contains(&(slot as u32)) {
+            watch.struck.push(slot as u32);
+        }
+    }
+    gained
 }
 
 /// Takes the geometry anew where an impact moved it: that of the middle, or of the last impact if it came after,

@@ -7,6 +7,7 @@
 
 mod active;
 mod close;
+mod impact;
 mod prepare;
 
 pub use active::solve;
@@ -87,6 +88,8 @@ pub struct Ties {
     wanted: Vec<Triple>,
     solved: Vec<Triple>,
     change: Vec<Twist>,
+    /// What a unit of impulse of each row of a contact gives each slot, with what joints carry along.
+    carried: [Vec<Twist>; 3],
 }
 
 impl Ties {
