@@ -13,7 +13,7 @@ Vec2(4.0, 4.0)
 >>> velocity == (x, y)
 True
 
-A world holds bodies, fields of force and schedules, and moves them:
+A world holds bodies, joints, fields of force and schedules, and moves them:
 
 >>> world = cb.World(gravity=(0, -9.81))
 >>> ball = world.add_body(cb.Circle(0.1), velocity=(12, 9))
@@ -39,6 +39,7 @@ from culbuto._native import (
     Attraction,
     Body,
     Box,
+    BrokenJoint,
     Capsule,
     Central,
     Chain,
@@ -53,6 +54,7 @@ from culbuto._native import (
     Facts,
     Field,
     Frame,
+    Joints,
     MassProperties,
     Nearest,
     Oscillating,
@@ -82,13 +84,33 @@ from culbuto._native import (
     scene_schema,
 )
 from culbuto.catalogue import Laws, Limits, Scene, Verdict, scene, scenes, verify, verify_laws
+from culbuto.joints import (
+    AngleSpringJoint,
+    DistanceJoint,
+    FilterJoint,
+    FrictionJoint,
+    GearJoint,
+    GrabJoint,
+    Joint,
+    MotorJoint,
+    PrismaticJoint,
+    PulleyJoint,
+    RackJoint,
+    RatchetJoint,
+    RevoluteJoint,
+    RopeJoint,
+    WeldJoint,
+    WheelJoint,
+)
 from culbuto.study import Row, Study, study
 
 __all__ = [
+    "AngleSpringJoint",
     "Arc",
     "Attraction",
     "Body",
     "Box",
+    "BrokenJoint",
     "Capsule",
     "Central",
     "Chain",
@@ -98,22 +120,36 @@ __all__ = [
     "ContactEvents",
     "Contacts",
     "Distance",
+    "DistanceJoint",
     "Energy",
     "Events",
     "Facts",
     "Field",
+    "FilterJoint",
     "Frame",
+    "FrictionJoint",
+    "GearJoint",
+    "GrabJoint",
+    "Joint",
+    "Joints",
     "Laws",
     "Limits",
     "MassProperties",
+    "MotorJoint",
     "Nearest",
     "Oscillating",
     "PairOfMaterials",
     "Polygon",
     "PreSolve",
+    "PrismaticJoint",
+    "PulleyJoint",
+    "RackJoint",
+    "RatchetJoint",
     "RayHit",
     "RayHits",
     "RegularPolygon",
+    "RevoluteJoint",
+    "RopeJoint",
     "RoundedPolygon",
     "Row",
     "Scene",
@@ -132,6 +168,8 @@ __all__ = [
     "Trajectory",
     "Vec2",
     "Verdict",
+    "WeldJoint",
+    "WheelJoint",
     "World",
     "__version__",
     "methods",

@@ -26,13 +26,16 @@ from typing import (
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, DTypeLike, NDArray
-from typing_extensions import Unpack, disjoint_base
+from typing_extensions import Self, Unpack, disjoint_base
+
+from culbuto.joints import Joint
 
 __all__ = [
     "Arc",
     "Attraction",
     "Body",
     "Box",
+    "BrokenJoint",
     "Capsule",
     "Central",
     "Chain",
@@ -47,6 +50,7 @@ __all__ = [
     "Facts",
     "Field",
     "Frame",
+    "Joints",
     "MassProperties",
     "Nearest",
     "Oscillating",
@@ -71,6 +75,7 @@ __all__ = [
     "Trajectory",
     "Vec2",
     "World",
+    "_Joint",
     "__version__",
     "catalogue",
     "exact_motion",
@@ -983,7 +988,7 @@ class Body:
         clear of a piece of the other. A body without shapes is a point.
         """
     def remove(self) -> None:
-        """Removes the body, and the schedules on it, from its world."""
+        """Removes the body, and the joints and schedules on it, from its world."""
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
 
 @final
@@ -1139,6 +1144,90 @@ class Schedule:
         """Removes the schedule from its world."""
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
 
+@disjoint_base
+class _Joint:
+    """What the joints of all kinds are to the engine. Use `culbuto.Joint`."""
+
+    def __new__(cls, *_arguments: object, **_keywords: object) -> Self: ...
+    def _make(
+        self, kind: str, body_a: Body | None, body_b: Body | None, **parameters: object
+    ) -> None:
+        """Drafts a joint of a kind between two bodies; None is the world."""
+    def _read(self, name: str) -> object:
+        """A parameter, or something to be seen of it."""
+    def _write(self, name: str, value: object) -> None:
+        """Changes a parameter."""
+    @property
+    def kind(self) -> str:
+        """The kind: "distance", "revolute", …"""
+    @property
+    def body_a(self) -> Body | None:
+        """A; None: the world."""
+    @property
+    def body_b(self) -> Body | None:
+        """B; None: the world."""
+    @property
+    def world(self) -> World | None:
+        """The world it is, or was, in; None until it is added to one."""
+    @property
+    def removed(self) -> bool:
+        """Whether it was removed from its world."""
+    def remove(self) -> None:
+        """Removes the joint from its world."""
+    def __reduce__(self) -> tuple[Any, ...]: ...
+    def __setstate__(self, state: dict[str, Any] | tuple[Any, ...]) -> None: ...
+
+@final
+class BrokenJoint:
+    """A joint that broke: it bore more than it may, and is no longer in the world."""
+
+    @property
+    def joint(self) -> Joint:
+        """The joint, which was removed."""
+    @property
+    def time(self) -> float:
+        """World time at the end of the step in which it broke (s)."""
+    @property
+    def reaction_force(self) -> Vec2:
+        """Mean force on B in that step (N)."""
+    @property
+    def reaction_torque(self) -> float:
+        """Mean torque on B about its anchor in that step (N·m)."""
+
+@final
+class Joints:
+    """The joints of a world, now and later: a view.
+
+    In the order in which they were added, but that the last one takes the place of one that is
+    removed. Arrays follow that order.
+    """
+
+    def __len__(self) -> int: ...
+    def __getitem__(self, key: int | str, /) -> Joint: ...
+    def __iter__(self) -> Iterator[Joint]: ...
+    def __contains__(self, item: object, /) -> bool: ...
+    def find(self, name: str) -> Joint | None:
+        """The first joint of this name; None if there is none."""
+    @property
+    def bodies(self) -> _IntArray:
+        """Places of A and B in body order (n, 2); −1 for the world."""
+    @property
+    def points(self) -> _Array:
+        """Anchors of A and of B in the world (n, 2, 2) (m)."""
+    @property
+    def reaction_forces(self) -> _Array:
+        """Mean forces on B in the last step (n, 2) (N)."""
+    @property
+    def reaction_torques(self) -> _Array:
+        """Mean torques on B about its anchor in the last step (n,) (N·m)."""
+    @property
+    def gaps(self) -> _Array:
+        """How far each is from what it holds (n,) (m; rad where it holds an angle)."""
+    @property
+    def energies(self) -> _Array:
+        """Energies in the springs (n,) (J)."""
+
+_AnyJoint = TypeVar("_AnyJoint", bound=_Joint)
 _IntArray: TypeAlias = NDArray[np.int64]
 _EventKind: TypeAlias = Literal["begin", "end", "hit", "sensor_begin", "sensor_end"]
 _Listener = TypeVar("_Listener", bound=Callable[[ContactEvent], object])
@@ -1314,6 +1403,9 @@ class Events:
     @property
     def sensor_end(self) -> ContactEvents:
         """Shapes that a sensor no longer overlaps."""
+    @property
+    def broken(self) -> list[BrokenJoint]:
+        """Joints that broke."""
 
 @final
 class PreSolve:
@@ -1833,8 +1925,16 @@ class World:
         Times (n + 1,) are in s, world time; nothing acts before and after, and the last may be
         infinite. Steps end at each of them, so the motion is as exact as under a constant force.
         """
-    def remove(self, part: Body | Field | Schedule) -> None:
-        """Removes a body (and the schedules on it), a field or a schedule."""
+    def add_joint(self, joint: _AnyJoint) -> _AnyJoint:
+        """Adds a joint that was drafted, and returns it.
+
+        `world.add_joint(cb.DistanceJoint(ground, crate, hertz=2))`
+        """
+    @property
+    def joints(self) -> Joints:
+        """The joints of now and of later: a view."""
+    def remove(self, part: Body | Field | Schedule | _Joint) -> None:
+        """Removes a body (and the joints and schedules on it), a joint, a field or a schedule."""
     def find(self, name: str) -> Body | None:
         """The first body of this name, in body order; None if there is none."""
     def cast_ray(self, start: _Vec2Arg, end: _Vec2Arg, **seen: Unpack[_Seen]) -> RayHit | None:
@@ -1958,7 +2058,7 @@ class World:
     def __setstate__(self, state: tuple[Any, ...]) -> None: ...
     def _repr_svg_(self) -> str:
         """The world as it is, as an SVG: what a notebook shows of it."""
-    def draw(self, ax: Axes, **style: object) -> Axes:
+    def draw(self, ax: Axes, *, joints: bool = True, **style: object) -> Axes:
         """Draws the world as it is on matplotlib axes, in metres; `style` goes to the patches."""
 
 @final

@@ -13,6 +13,8 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
+from culbuto.joint_drawing import Mark, marks
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -24,9 +26,11 @@ Points = NDArray[np.float64]
 
 COLOURS = {"dynamic": "#3584c8", "kinematic": "#cc7a29", "static": "#858585"}
 PATH_COLOUR = "#b0579a"
+JOINT_COLOUR = "#2e9d6a"
 WIDTH = 640  # of a picture, in pixels
 TALLEST = 640
 DOT = 3.0  # radius in pixels of a body without a shape
+HINGE = 4.0  # radius in pixels of a hinge
 MOST_PATH_POINTS = 1000
 
 
@@ -67,15 +71,29 @@ def sketches(world: World) -> list[Sketch]:
     return [Sketch.of(body, tuple(body.position), body.angle) for body in world.bodies]
 
 
-def svg(world: World) -> str:
-    """The world as it is, as an SVG: shapes coloured by kind, centres of mass, orientation."""
+def svg(world: World, *, joints: bool = True) -> str:
+    """The world as it is, as an SVG: shapes coloured by kind, centres of mass, orientation, joints.
+
+    Args:
+        world: The world.
+        joints: Whether joints are drawn.
+    """
     now = sketches(world)
-    canvas = _Canvas(_view(now, []))
-    return canvas.document([canvas.body(sketch) for sketch in now])
+    canvas = _Canvas(_view(now, _reach(world) if joints else []))
+    tied = marks(world, HINGE / canvas.scale) if joints else []
+    return canvas.document([*map(canvas.body, now), *map(canvas.joint, tied)])
 
 
-def picture(world: World, trajectory: Trajectory) -> str:
-    """A motion as an SVG: the bodies at its start (faint) and at its end, and the paths between."""
+def _reach(world: World) -> list[Points]:
+    """Where joints are, whatever the size of their marks."""
+    return [mark.points for mark in marks(world, 0.0)]
+
+
+def picture(world: World, trajectory: Trajectory, *, joints: bool = True) -> str:
+    """A motion as an SVG: the bodies at its start (faint) and at its end, and the paths between.
+
+    Joints are drawn at its end, if that is where the world is.
+    """
     moving = [i for i, body in enumerate(world.bodies) if body.kind != "static"]
 
     def at(k: int) -> list[Sketch]:
@@ -85,11 +103,14 @@ def picture(world: World, trajectory: Trajectory) -> str:
     start, end = at(0), at(-1)
     every = -(-len(trajectory.times) // MOST_PATH_POINTS)
     paths = [_centers(world.bodies[i], trajectory, i)[::every] for i in moving]
-    canvas = _Canvas(_view(start + end, paths))
+    joints = joints and np.array_equal(trajectory.positions[-1], world.positions)
+    canvas = _Canvas(_view(start + end, [*paths, *(_reach(world) if joints else [])]))
+    tied = marks(world, HINGE / canvas.scale) if joints else []
     return canvas.document([
         *(canvas.body(start[i], faint=True) for i in moving),
         *(canvas.path(path) for path in paths),
-        *(canvas.body(sketch) for sketch in end),
+        *map(canvas.body, end),
+        *map(canvas.joint, tied),
     ])  # fmt: skip
 
 
@@ -171,6 +192,21 @@ class _Canvas:
         line = f'd="M{self._steps(points)}" fill="none" stroke="{PATH_COLOUR}"'
         return f'<path class="path" {line} stroke-width="1.2" stroke-opacity="0.9"/>'
 
+    def joint(self, mark: Mark) -> str:
+        """A joint: its lines, rings and dots."""
+        parts = [f"<title>{escape(mark.name)}</title>"] if mark.name else []
+        if mark.thin:
+            thin = "".join(map(self._d, mark.thin))
+            parts.append(f'<path d="{thin}" stroke-width="1" stroke-dasharray="4 3"/>')
+        if mark.lines:
+            parts.append(f'<path d="{"".join(map(self._d, mark.lines))}"/>')
+        for points, radius, fill in ((mark.rings, HINGE, "none"), (mark.dots, 2.0, JOINT_COLOUR)):
+            for point in points:
+                x, y = self._steps(point[None]).split(",")
+                parts.append(f'<circle cx="{x}" cy="{y}" r="{radius}" fill="{fill}"/>')
+        kind = quoteattr(f"joint {mark.kind}")
+        return f'<g class={kind} stroke="{JOINT_COLOUR}" fill="none">{"".join(parts)}</g>'
+
     def document(self, parts: Sequence[str]) -> str:
         """The SVG."""
         width, height = f"{self.width:.0f}", f"{self.height:.0f}"
@@ -183,8 +219,8 @@ class _Canvas:
         ])  # fmt: skip
 
 
-def draw(world: World, ax: Axes, **style: Any) -> Axes:  # noqa: ANN401 — whatever a patch takes
-    """Draws the world as it is on matplotlib axes, in metres; `style` goes to the patches."""
+def draw(world: World, ax: Axes, *, joints: bool = True, **style: Any) -> Axes:  # noqa: ANN401 — whatever a patch takes
+    """Draws the world on matplotlib axes, in metres; `style` goes to the patches of shapes."""
     from matplotlib.patches import PathPatch  # noqa: PLC0415 — comes with an extra
     from matplotlib.path import Path  # noqa: PLC0415
 
@@ -198,7 +234,16 @@ def draw(world: World, ax: Axes, **style: Any) -> Axes:  # noqa: ANN401 — what
         if sketch.kind != "static":
             ax.plot(*sketch.mark.T, color=colour, linewidth=1.2)
             ax.plot(*sketch.mark[0], marker="o", markersize=3, color=colour)
-    low, high = _view(now, [])
+    low, high = _view(now, _reach(world) if joints else [])
+    if joints:
+        for mark in marks(world, 0.01 * float((high - low).max())):
+            for line in mark.lines:
+                ax.plot(*line.T, color=JOINT_COLOUR, linewidth=1.5)
+            for line in mark.thin:
+                ax.plot(*line.T, color=JOINT_COLOUR, linewidth=0.8, linestyle="--")
+            for points, face in ((mark.rings, "none"), (mark.dots, JOINT_COLOUR)):
+                x, y = np.reshape(points, (-1, 2)).T
+                ax.plot(x, y, "o", color=JOINT_COLOUR, markerfacecolor=face, markersize=5)
     ax.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel="x (m)", ylabel="y (m)")
     ax.set_aspect("equal")
     return ax

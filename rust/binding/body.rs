@@ -58,7 +58,7 @@ impl Body {
         self.place.lives_in(world)
     }
 
-    /// Removes the body and its schedules; their objects stay, and say that they were removed.
+    /// Removes the body, its joints and its schedules; their objects stay, and say that they were removed.
     pub fn remove_from(&self, world: &Bound<'_, World>) -> PyResult<()> {
         self.place.check_world(world)?;
         let own = world.get();
@@ -69,13 +69,14 @@ impl Body {
         let mut objects = own.objects();
         let body = (index < objects.bodies.len()).then(|| objects.bodies.swap_remove(index));
         self.place.leave();
+        let joints = objects.keep_joints(core.joint_handles());
         let schedules = objects.keep_schedules(core.schedule_handles());
         drop(objects);
         drop(core);
         if let Some(body) = body {
             own.rules().keep_removed(body);
         }
-        drop(schedules);
+        drop((joints, schedules));
         Ok(())
     }
 }
@@ -254,7 +255,7 @@ impl Body {
         !self.place.is_alive()
     }
 
-    /// Removes the body, and the schedules on it, from its world.
+    /// Removes the body, and the joints and schedules on it, from its world.
     fn remove(&self, py: Python<'_>) -> PyResult<()> {
         self.remove_from(self.place.world.bind(py))
     }

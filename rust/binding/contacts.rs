@@ -10,6 +10,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyList;
 
 use crate::body::Body;
+use crate::joints::BrokenJoint;
 use crate::vec2::Vec2;
 use crate::world::World;
 
@@ -325,6 +326,8 @@ pub struct Events {
     sensor_begin: Py<ContactEvents>,
     /// Shapes that a sensor no longer overlaps.
     sensor_end: Py<ContactEvents>,
+    /// Joints that broke.
+    broken: Vec<Py<BrokenJoint>>,
 }
 
 impl Events {
@@ -336,6 +339,7 @@ impl Events {
             hit: list("hit", &core.hit)?,
             sensor_begin: list("sensor_begin", &core.sensor_begin)?,
             sensor_end: list("sensor_end", &core.sensor_end)?,
+            broken: world.objects().broken.iter().map(|joint| joint.clone_ref(py)).collect(),
         })
     }
 
@@ -354,14 +358,17 @@ impl Events {
         let (begin, end, hit) = (n(&self.begin), n(&self.end), n(&self.hit));
         let sensors = (n(&self.sensor_begin), n(&self.sensor_end));
         format!(
-            "<Events: {begin} begin, {end} end, {hit} hit, {} sensor_begin, {} sensor_end>",
-            sensors.0, sensors.1
+            "<Events: {begin} begin, {end} end, {hit} hit, {} sensor_begin, {} sensor_end, {} broken>",
+            sensors.0,
+            sensors.1,
+            self.broken.len()
         )
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
         let lists = [&self.hit, &self.begin, &self.end, &self.sensor_begin, &self.sensor_end];
-        lists.into_iter().try_for_each(|list| visit.call(list))
+        lists.into_iter().try_for_each(|list| visit.call(list))?;
+        self.broken.iter().try_for_each(|broken| visit.call(broken))
     }
 }
 
@@ -374,7 +381,7 @@ impl World {
         Contacts::new(py, self, &all)
     }
 
-    /// What happened between shapes during the last call that moved the world on; nothing if it failed.
+    /// What happened between shapes, and to joints, during the last call that moved the world on; nothing if it failed.
     #[getter]
     fn events(&self, py: Python<'_>) -> PyResult<Events> {
         let core = self.core(py)?.events().clone();

@@ -13,14 +13,17 @@ impl World {
         slf.py().import("culbuto.drawing")?.call_method1("svg", (slf,))
     }
 
-    /// Draws the world as it is on matplotlib axes, in metres, and returns those; `style` goes to the
-    /// patches of the shapes.
-    #[pyo3(signature = (ax, **style))]
+    /// Draws the world as it is on matplotlib axes, in metres, with or without its joints, and returns those axes;
+    /// `style` goes to the patches of the shapes.
+    #[pyo3(signature = (ax, *, joints=true, **style))]
     fn draw<'py>(
         slf: &Bound<'py, Self>,
         ax: &Bound<'py, PyAny>,
-        style: Option<&Bound<'py, PyDict>>,
+        joints: bool,
+        style: Option<Bound<'py, PyDict>>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("culbuto.drawing")?.call_method("draw", (slf, ax), style)
+        let keywords = style.unwrap_or_else(|| PyDict::new(slf.py()));
+        keywords.set_item("joints", joints)?;
+        slf.py().import("culbuto.drawing")?.call_method("draw", (slf, ax), Some(&keywords))
     }
 }

@@ -32,12 +32,13 @@ pub fn to_py(error: Error) -> PyErr {
         Error::Invalid { .. } => PyValueError::new_err(message),
         Error::StaleHandle(_) => StaleHandleError::new_err(message),
         Error::SceneFile { .. } => SceneFileError::new_err(message),
-        Error::Field { source, .. } | Error::Hook { source } | Error::Interrupted { source } => {
-            match source.downcast::<PyErr>() {
-                Ok(raised) => *raised,
-                Err(_) => SimulationError::new_err(message),
-            }
-        }
+        Error::Field { source, .. }
+        | Error::Joint { source, .. }
+        | Error::Hook { source }
+        | Error::Interrupted { source } => match source.downcast::<PyErr>() {
+            Ok(raised) => *raised,
+            Err(_) => SimulationError::new_err(message),
+        },
         Error::Io { path, source } => io_error(path, &source, message),
         // NotFinite, Tolerance, and whatever the engine adds.
         _ => SimulationError::new_err(message),

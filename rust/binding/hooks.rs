@@ -69,7 +69,7 @@ impl World {
         !self.rules().listeners.is_empty()
     }
 
-    /// After a call that moved the world on: forgets bodies that were removed before the call before, and calls
+    /// After a call that moved the world on: lets go of joints that broke in it, forgets bodies that were removed before the call before, and calls
     /// those who listen.
     pub fn deliver(&self, py: Python<'_>) -> PyResult<()> {
         let old = {
@@ -78,6 +78,7 @@ impl World {
             std::mem::replace(&mut rules.removed[1], newer)
         };
         drop(old);
+        self.let_go_of_broken(py)?;
         if !self.is_heard() {
             return Ok(());
         }

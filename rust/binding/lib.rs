@@ -17,6 +17,10 @@ mod error;
 mod field;
 mod found;
 mod hooks;
+mod joint;
+mod joint_parameters;
+mod joint_springs;
+mod joints;
 mod law;
 mod mixing;
 mod observe;
@@ -56,6 +60,10 @@ mod culbuto_native {
     use crate::found::{Distance, Nearest, RayHit};
     #[pymodule_export]
     use crate::hooks::PreSolve;
+    #[pymodule_export]
+    use crate::joint::Joint;
+    #[pymodule_export]
+    use crate::joints::{BrokenJoint, Joints};
     #[pymodule_export]
     use crate::law::State;
     #[pymodule_export]

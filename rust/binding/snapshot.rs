@@ -9,13 +9,14 @@ use culbuto::world::Snapshot as Kept;
 use pyo3::exceptions::PyValueError;
 use pyo3::gc::{PyTraverseError, PyVisit};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyTuple};
+use pyo3::types::{PyBytes, PyDict, PyTuple, PyType};
 
 use pyo3::PyClass;
 
 use crate::body::Body;
 use crate::error::to_py;
 use crate::field::Field;
+use crate::joint::{Classes, Joint, joint_class};
 use crate::law::{Law, LawParts};
 use crate::parts::Place;
 use crate::schedule::Schedule;
@@ -107,6 +108,8 @@ impl Objects {
     /// Shows the garbage collector all objects.
     pub fn traverse(&self, visit: &PyVisit<'_>) -> Result<(), PyTraverseError> {
         self.bodies.iter().try_for_each(|body| visit.call(body))?;
+        self.joints.iter().try_for_each(|joint| visit.call(joint))?;
+        self.broken.iter().try_for_each(|broken| visit.call(broken))?;
         self.fields.iter().try_for_each(|field| visit.call(field))?;
         self.schedules.iter().try_for_each(|schedule| visit.call(schedule))
     }
@@ -114,6 +117,8 @@ impl Objects {
     fn copied(&self, py: Python<'_>) -> Self {
         Self {
             bodies: self.bodies.iter().map(|body| body.clone_ref(py)).collect(),
+            joints: self.joints.iter().map(|joint| joint.clone_ref(py)).collect(),
+            broken: Vec::new(),
             fields: self.fields.iter().map(|field| field.clone_ref(py)).collect(),
             schedules: self.schedules.iter().map(|schedule| schedule.clone_ref(py)).collect(),
         }
@@ -125,12 +130,16 @@ impl Objects {
         self.fields.iter().filter_map(law).collect()
     }
 
-    /// New objects for a core's bodies, fields and schedules.
+    /// New objects for all that a core has.
     fn new(world: &Bound<'_, World>, kept: &Kept, laws: &[Py<Law>]) -> PyResult<Self> {
         let py = world.py();
         let mut objects = Self::default();
         for _ in kept.bodies() {
             objects.bodies.push(Py::new(py, Body { place: Place::new(world) })?);
+        }
+        let classes = Classes::known(py)?;
+        for joint in kept.joints() {
+            objects.joints.push(Joint::placed(world, &classes.of(joint)?)?.unbind());
         }
         let mut laws = laws.iter();
         for field in kept.fields() {
@@ -149,6 +158,9 @@ impl Objects {
         for (body, handle) in self.bodies.iter().zip(kept.bodies()) {
             body.get().place.enter(*handle);
         }
+        for (joint, handle) in self.joints.iter().zip(kept.joint_handles()) {
+            joint.get().enter(*handle);
+        }
         for (field, handle) in self.fields.iter().zip(kept.field_handles()) {
             field.get().place.enter(*handle);
         }
@@ -160,6 +172,7 @@ impl Objects {
     /// Takes every object out of its place. Called with the core locked.
     fn leave(&self) {
         self.bodies.iter().for_each(|body| body.get().place.leave());
+        self.joints.iter().for_each(|joint| joint.get().leave());
         self.fields.iter().for_each(|field| field.get().place.leave());
         self.schedules.iter().for_each(|schedule| schedule.get().place.leave());
     }
@@ -211,6 +224,7 @@ type Pickled<'py> = (
     Bound<'py, PyBytes>,
     Vec<LawParts>,
     Vec<Py<Body>>,
+    Vec<Py<Joint>>,
     Vec<Py<Field>>,
     Vec<Py<Schedule>>,
     Bound<'py, PyAny>,
@@ -259,6 +273,9 @@ impl World {
         for (old, new) in objects.bodies.iter().zip(&made.bodies) {
             copy_attributes(old.bind(py), new.bind(py))?;
         }
+        for (old, new) in objects.joints.iter().zip(&made.joints) {
+            copy_attributes(old.bind(py), new.bind(py))?;
+        }
         for (old, new) in objects.fields.iter().zip(&made.fields) {
             copy_attributes(old.bind(py), new.bind(py))?;
         }
@@ -277,29 +294,32 @@ impl World {
         drop(core);
         let data = PyBytes::new(py, &kept.to_bytes().map_err(to_py)?);
         let laws = objects.laws(py).iter().map(|law| law.get().parts(py)).collect();
-        let Objects { bodies, fields, schedules } = objects;
+        let Objects { bodies, joints, fields, schedules, .. } = objects;
         let attributes = slf.getattr("__dict__")?;
-        let state = (data, laws, bodies, fields, schedules, attributes);
+        let state = (data, laws, bodies, joints, fields, schedules, attributes);
         Ok((slf.get_type().into_any(), PyTuple::empty(py), state))
     }
 
     /// The part of this kind in a slot; a new one, to be put there, while the world is being unpickled.
-    #[pyo3(name = "_part")]
+    #[pyo3(name = "_part", signature = (kind, slot, class_=None))]
     fn part<'py>(
         slf: &Bound<'py, Self>,
         kind: &str,
         slot: Option<usize>,
+        class_: Option<Bound<'py, PyType>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = slf.py();
         let objects = slf.get().objects().copied(py);
         let found = match kind {
             "body" => in_slot(py, objects.bodies, slot, |body| body.get().place.slot()),
+            "joint" => in_slot(py, objects.joints, slot, |joint| joint.get().slot()),
             "field" => in_slot(py, objects.fields, slot, |field| field.get().place.slot()),
             _ => in_slot(py, objects.schedules, slot, |schedule| schedule.get().place.slot()),
         };
         Ok(match (found, kind) {
             (Some(found), _) => found,
             (None, "body") => Bound::new(py, Body { place: Place::new(slf) })?.into_any(),
+            (None, "joint") => Joint::placed(slf, joint_class(class_)?.as_any())?.into_any(),
             (None, "field") => Bound::new(py, Field::new(slf, None))?.into_any(),
             (None, _) => Bound::new(py, Schedule { place: Place::new(slf) })?.into_any(),
         })
@@ -307,23 +327,25 @@ impl World {
 
     fn __setstate__(slf: &Bound<'_, Self>, state: Pickled<'_>) -> PyResult<()> {
         let py = slf.py();
-        let (data, laws, bodies, fields, schedules, attributes) = state;
+        let (data, laws, bodies, joints, fields, schedules, attributes) = state;
         let (laws, shared) = make_laws(py, laws)?;
         let kept = Kept::from_bytes(data.as_bytes(), shared).map_err(to_py)?;
         // Fields are made here, around the laws; their pickles find them by their place.
         let mut objects = Objects::new(slf, &kept, &laws)?;
-        let counts = (kept.bodies().len(), kept.fields().len(), kept.schedules().len());
-        if (bodies.len(), fields.len(), schedules.len()) != counts {
+        let wanted =
+            [kept.bodies().len(), kept.joints().len(), kept.fields().len(), kept.schedules().len()];
+        if [bodies.len(), joints.len(), fields.len(), schedules.len()] != wanted {
             return Err(PyValueError::new_err("this is no pickled world"));
         }
         let own = |world: &Py<Self>| world.is(slf);
         let right = bodies.iter().all(|body| own(&body.get().place.world))
+            && joints.iter().all(|joint| joint.get().is_of(slf))
             && fields.iter().all(|field| own(&field.get().place.world))
             && schedules.iter().all(|schedule| own(&schedule.get().place.world));
         if !right {
             return Err(PyValueError::new_err("this is no pickled world"));
         }
-        (objects.bodies, objects.schedules) = (bodies, schedules);
+        (objects.bodies, objects.joints, objects.schedules) = (bodies, joints, schedules);
         for (field, law) in fields.iter().zip(&objects.fields) {
             field.get().adopt(law.get().law().map(|law| law.clone_ref(py)));
         }

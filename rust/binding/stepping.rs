@@ -180,15 +180,17 @@ fn signals() -> impl FnMut() -> Result<(), BoxError> {
 impl World {
     /// Steps one by one, so that who listens may change the world in between. The events are those of all steps.
     fn step_heard(&self, py: Python<'_>, dt: Real, steps: u32) -> PyResult<()> {
-        let mut earlier = world::Events::default();
+        let (mut earlier, mut broken) = (world::Events::default(), Vec::new());
         for _ in 0..steps {
             self.work(py, |core| core.step(dt))?;
             let events = self.core(py)?.events().clone();
             self.deliver(py)?;
             earlier.append(events);
+            broken.append(&mut self.objects().broken);
             py.check_signals()?;
         }
         self.core(py)?.set_events(earlier);
+        self.objects().broken = broken;
         Ok(())
     }
 }

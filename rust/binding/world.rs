@@ -17,6 +17,8 @@ use crate::convert::{Vec2Arg, count};
 use crate::error::to_py;
 use crate::field::Field;
 use crate::hooks::Rules;
+use crate::joint::Joint;
+use crate::joints::BrokenJoint;
 use crate::mixing::{ImpactLawArg, RuleArg};
 use crate::parts::Made;
 use crate::schedule::Schedule;
@@ -48,6 +50,10 @@ pub struct World {
 pub struct Objects {
     /// In body order.
     pub bodies: Vec<Py<Body>>,
+    /// In the order of the core's joints.
+    pub joints: Vec<Py<Joint>>,
+    /// Those that broke in the last call that moved the world on.
+    pub broken: Vec<Py<BrokenJoint>>,
     /// In the order of the core's fields.
     pub fields: Vec<Py<Field>>,
     /// In the order of the core's schedules.
@@ -342,17 +348,19 @@ impl World {
         Ok(self.objects().bodies.get(index).map(|body| body.clone_ref(py)))
     }
 
-    /// Removes a body (and the schedules on it), a field or a schedule.
+    /// Removes a body (and the joints and schedules on it), a joint, a field or a schedule.
     fn remove(slf: &Bound<'_, Self>, part: &Bound<'_, PyAny>) -> PyResult<()> {
         if let Ok(body) = part.cast::<Body>() {
             body.get().remove_from(slf)
+        } else if let Ok(joint) = part.cast::<Joint>() {
+            joint.get().remove_from(slf)
         } else if let Ok(field) = part.cast::<Field>() {
             field.get().remove_from(slf)
         } else if let Ok(schedule) = part.cast::<Schedule>() {
             schedule.get().remove_from(slf)
         } else {
             let kind = part.get_type().name()?;
-            let message = format!("a world holds bodies, fields and schedules, no {kind}");
+            let message = format!("a world holds bodies, joints, fields and schedules, no {kind}");
             Err(PyTypeError::new_err(message))
         }
     }
@@ -371,9 +379,7 @@ impl World {
             return Ok(());
         }
         let Ok(objects) = self.objects.try_lock() else { return Ok(()) };
-        objects.bodies.iter().try_for_each(|body| visit.call(body))?;
-        objects.fields.iter().try_for_each(|field| visit.call(field))?;
-        objects.schedules.iter().try_for_each(|schedule| visit.call(schedule))?;
+        objects.traverse(&visit)?;
         let Ok(rules) = self.rules.try_lock() else { return Ok(()) };
         rules.traverse(&visit)
     }

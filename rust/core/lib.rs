@@ -64,6 +64,8 @@ pub mod docs {
     pub mod architecture {}
     #[doc = include_str!("../../docs/decisions.md")]
     pub mod decisions {}
+    #[doc = include_str!("../../docs/joints.md")]
+    pub mod joints {}
     #[doc = include_str!("../../docs/scene-files.md")]
     pub mod scene_files {}
 }

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import culbuto as cb
-from culbuto.drawing import picture
+from culbuto.drawing import picture, svg
+from test_joints import KINDS, added
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -78,6 +79,38 @@ def test_little_to_draw_is_drawn(world: cb.World) -> None:
     assert len(bodies(world._repr_svg_())) == len(world)
 
 
+def joints(svg: str) -> list[ET.Element]:
+    root = ET.fromstring(svg)  # noqa: S314 — our own
+    return [g for g in root.iter(f"{SVG}g") if g.get("class", "").startswith("joint")]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_joint_but_a_filter_is_in_the_picture(kind: str) -> None:
+    world, joint = added(kind)
+    joint.name = "<it>"
+    drawn = joints(world._repr_svg_())
+    assert len(drawn) == (kind != "filter")
+    for g in drawn:
+        assert g.get("class") == f"joint {joint.kind}"
+        assert [title.text for title in g.iter(f"{SVG}title")] == ["<it>"]
+        assert list(g.iter(f"{SVG}path")) or list(g.iter(f"{SVG}circle"))
+        assert "nan" not in ET.tostring(g, "unicode")
+    assert not joints(svg(world, joints=False))
+    motion = world.record(0.01, 5)
+    assert len(joints(picture(world, motion))) == len(drawn)
+    world.bodies[2].position = (5, 6)  # now the bodies are elsewhere than in the picture
+    assert not joints(picture(world, motion))
+
+
+def test_where_a_joint_holds_the_world_is_in_sight() -> None:
+    world = cb.World()
+    world.add_body(cb.Circle(0.1))
+    world.add_joint(cb.DistanceJoint(None, world.bodies[0], anchor_a=(0, 100)))
+    (rod,) = joints(svg(world))
+    heights = [float(dot.get("cy", "nan")) for dot in rod.iter(f"{SVG}circle")]
+    assert min(heights) > 0
+
+
 def test_draws_on_axes() -> None:
     pytest.importorskip("matplotlib")
     from matplotlib.figure import Figure  # noqa: PLC0415
@@ -88,3 +121,10 @@ def test_draws_on_axes() -> None:
     assert len(ax.patches) == sum(len(body.shapes) for body in world.bodies)
     assert {patch.get_linewidth() for patch in ax.patches} == {2}
     assert ax.get_aspect() == 1
+    world.add_joint(cb.RevoluteJoint(None, world.bodies[1]))
+    world.add_joint(cb.DistanceJoint(*world.bodies[1:3], hertz=1))
+    lines = len(Figure().add_subplot().lines)
+    for with_joints in (False, True):
+        axes = world.draw(Figure().add_subplot(), joints=with_joints)
+        assert (len(axes.lines) > lines) is True
+        lines = len(axes.lines)

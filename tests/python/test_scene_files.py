@@ -31,7 +31,11 @@ def test_the_guide_is_valid() -> None:
     "change",
     [
         {"culbuto": 2},
-        {"joints": []},
+        {"fluids": []},
+        {"joints": [{"joint": "filter"}]},
+        {"joints": [{"bodies": [0, None], "joint": {"gear": {}}}]},
+        {"joints": [{"bodies": [0, None], "joint": {"weld": {"linear": "stiff"}}}]},
+        {"joints": [{"bodies": [0, None], "anchors": [[0], [0]], "joint": "filter"}]},
         {"gravity": [0]},
         {"settings": {"substeps": -1}},
         {"bodies": [{"mass": 1, "colour": 3}]},

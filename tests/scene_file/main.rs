@@ -6,5 +6,6 @@
 mod worlds;
 
 mod examples;
+mod joints;
 mod refusals;
 mod round_trips;

@@ -9,7 +9,7 @@ use crate::worlds::Righting;
 
 /// (the rest of a file after `"culbuto": 1`, path, part of the message).
 const BAD: &[(&str, &str, &str)] = &[
-    (r#""joints": []"#, "joints", "unknown field"),
+    (r#""fluids": []"#, "fluids", "unknown field"),
     (r#""gravity": "down""#, "gravity", "expected two numbers"),
     (r#""gravity": [0]"#, "gravity", "expected two numbers"),
     (r#""gravity": [0, 1, 2]"#, "gravity", "expected two numbers"),
@@ -207,7 +207,7 @@ fn what_is_wrong_is_named_with_its_path() {
 fn a_file_of_another_kind_or_version_is_refused_as_a_whole() {
     for (json, path, part) in [
         ("{}", ".", r#"has "culbuto": 1"#),
-        (r#"{"culbuto": 2, "joints": []}"#, "culbuto", "version 2 is not known"),
+        (r#"{"culbuto": 2, "fluids": []}"#, "culbuto", "version 2 is not known"),
         (r#"{"culbuto": "1"}"#, "culbuto", "is not known"),
         ("[1]", ".", "a JSON object"),
         ("", ".", "a JSON object"),

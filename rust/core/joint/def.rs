@@ -1,6 +1,5 @@
 //! What the user writes to make a joint.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Hold, JointKind, Travel};
@@ -9,13 +8,13 @@ use crate::error::{Result, check};
 use crate::math::{Real, Vec2, vec2};
 
 /// A point or a direction, as it is given. A joint in a world has it in local coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+/// In readable text it is `[x, y]` or `{"world": [x, y]}`.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Given {
     /// In the body's frame.
-    Local(#[schemars(with = "[Real; 2]")] Vec2),
+    Local(Vec2),
     /// In the world, where the body stands when the joint is made.
-    World(#[schemars(with = "[Real; 2]")] Vec2),
+    World(Vec2),
 }
 
 impl Given {
@@ -135,7 +134,10 @@ impl JointDef {
     }
 
     /// Every number checked; errors name the field.
-    pub(crate) fn validated(&self) -> Result<()> {
+    ///
+    /// # Errors
+    /// [`crate::Error::Invalid`] for the first that is not allowed.
+    pub fn validated(&self) -> Result<()> {
         for (anchor, what) in self.anchors.iter().zip(["anchor_a", "anchor_b"]) {
             check::finite_vec(what, anchor.vector())?;
         }

@@ -35,7 +35,7 @@ pub struct Travel {
 /// What a joint does. A is its first body, B its second; angles are those of B against A. Values that are left open (`None`)
 /// are taken from where the bodies stand when the joint is made.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", tag = "kind")]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum JointKind {
     /// Keeps the anchors at a distance: a rod, a spring, or between limits a rope.
     Distance {
@@ -46,10 +46,10 @@ pub enum JointKind {
         #[serde(default)]
         hold: Hold,
         /// Least length (m).
-        #[serde(default)]
+        #[serde(default, rename = "min_length")]
         min: Real,
         /// Greatest length (m); none: any.
-        #[serde(default)]
+        #[serde(default, rename = "max_length")]
         max: Option<Real>,
     },
     /// Keeps the anchors together: a hinge.
@@ -64,7 +64,6 @@ pub enum JointKind {
     /// Lets B's anchor slide along an axis fixed to A, and not turn.
     Prismatic {
         /// Direction of the axis.
-        #[schemars(with = "Given")]
         axis: Given,
         /// The angle that is kept (rad).
         #[serde(default)]
@@ -88,7 +87,6 @@ pub enum JointKind {
     /// Lets B, a wheel, turn about its anchor and ride up and down along an axis fixed to A.
     Wheel {
         /// Direction of the suspension.
-        #[schemars(with = "Given")]
         axis: Given,
         /// The suspension's spring.
         #[serde(default)]
@@ -157,7 +155,6 @@ pub enum JointKind {
     /// B, a pinion, rolls along a straight rack fixed to A.
     Rack {
         /// Direction of the rack.
-        #[schemars(with = "Given")]
         axis: Given,
         /// Pitch radius of the pinion (m): the way along the axis per radian.
         radius: Real,
@@ -270,8 +267,8 @@ impl JointKind {
             Self::Distance { length, hold, min, max } => {
                 length.map_or(Ok(0.0), |length| check::not_negative("length", length))?;
                 hold.validated()?;
-                check::not_negative("min", *min)?;
-                in_order("max", *min, max.unwrap_or(Real::MAX))
+                check::not_negative("min_length", *min)?;
+                in_order("max_length", *min, max.unwrap_or(Real::MAX))
             }
             Self::Revolute { angle, travel } => {
                 finite("angle", *angle)?;

@@ -6,6 +6,7 @@ mod custom;
 mod def;
 mod kind;
 mod spring;
+mod text;
 
 pub use custom::{Constraint, Custom, CustomRow};
 pub use def::{Given, JointDef};

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use crate::error::{Result, check};
 use crate::math::{PI, Real};
 
-/// A spring with a damper: a force −kC − cĊ along a coordinate C.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+/// A spring with a damper: a force −kC − cĊ along a coordinate C. In readable text it is one object with the keys
+/// `hertz` and `damping_ratio`, or `stiffness` and `damping`.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spring {
     /// By what is to be seen. With m_eff = 1/(J M⁻¹ Jᵀ) where the joint is made and ω = 2π·hertz:
     /// k = m_eff ω², c = 2 m_eff ζ ω (E. Catto, "Soft constraints", GDC 2011).
@@ -33,9 +33,8 @@ pub struct Coefficients {
     pub damping: Real,
 }
 
-/// How a joint holds a coordinate at its rest value.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
+/// How a joint holds a coordinate at its rest value. In readable text it is `"rigid"`, `"free"` or a [`Spring`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Hold {
     /// Exactly.
     #[default]

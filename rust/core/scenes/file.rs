@@ -1,12 +1,13 @@
 //! Scene files: a world as readable JSON. `docs/scene-files.md` is the guide, `docs/scene.schema.json`
 //! the schema.
 //!
-//! What is to come (joints, soft bodies, fluids) comes as further lists beside `bodies`, each empty by
+//! What is to come (soft bodies, fluids) comes as further lists beside `bodies`, each empty by
 //! default. A file that does without them stays as it is, so the version stays 1; it changes only when
 //! something that stands in files today gets another meaning.
 
 mod body;
 mod from_world;
+mod joint;
 mod text;
 mod to_world;
 
@@ -17,6 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use body::{SceneBody, ScenePart};
+pub use joint::{SceneJoint, SceneJointState};
 
 use crate::body::{Friction, ImpactLaw, Mixing};
 use crate::error::{Error, Result};
@@ -79,6 +81,9 @@ pub struct SceneFile {
     /// The bodies, in body order.
     #[serde(default)]
     pub bodies: Vec<SceneBody>,
+    /// What ties bodies together, in the order of the world's joints.
+    #[serde(default)]
+    pub joints: Vec<SceneJoint>,
     /// Forces that are constant between given times.
     #[serde(default)]
     pub schedules: Vec<SceneSchedule>,
@@ -238,6 +243,7 @@ impl Default for SceneFile {
             time_remainder: 0.0,
             materials: BTreeMap::new(),
             bodies: Vec::new(),
+            joints: Vec::new(),
             schedules: Vec::new(),
             fields: Vec::new(),
         }

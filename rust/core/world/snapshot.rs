@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::BodyHandle;
 use crate::error::{Error, Result};
 use crate::forces::{BuiltInField, FieldHandle, ForceField, Schedule, ScheduleHandle};
-use crate::joint::{Constraint, Custom, Joint, JointKind};
+use crate::joint::{Constraint, Custom, Joint, JointHandle, JointKind};
 use crate::math::Real;
 use crate::methods;
 use crate::world::{State, World};
@@ -63,6 +63,18 @@ impl Snapshot {
     #[must_use]
     pub fn fields(&self) -> &[Arc<dyn ForceField>] {
         &self.fields
+    }
+
+    /// Handles of its joints, in the order of [`Snapshot::joints`].
+    #[must_use]
+    pub fn joint_handles(&self) -> &[JointHandle] {
+        self.state.joints.handles()
+    }
+
+    /// Its joints.
+    #[must_use]
+    pub fn joints(&self) -> &[Joint] {
+        self.state.joints.values()
     }
 
     /// Handles of its schedules, in the order of [`Snapshot::schedules`].

@@ -271,7 +271,10 @@ impl Law {
             }
             JointKind::Friction { max_force, max_torque } => {
                 let rub = |row: Row, bound| row.acting(Action::Drive(0.0)).within(Some(bound));
-                at.point().into_iter().for_each(|row| out.push(rub(row, *max_force)));
+                // As A's ground moves where B's anchor is, however far that has come from A's.
+                for d in [vec2(1.0, 0.0), vec2(0.0, 1.0)] {
+                    out.push(rub(at.axial(d), *max_force));
+                }
                 out.push(rub(angle_row(None), *max_torque));
                 out.disc = true;
             }

@@ -3,12 +3,13 @@
 use std::collections::BTreeMap;
 
 use super::{
-    BodyLabel, Material, SceneBody, SceneField, SceneFile, SceneOscillating, SceneSchedule,
-    SceneSettings, wrong,
+    BodyLabel, Material, SceneBody, SceneField, SceneFile, SceneJoint, SceneOscillating,
+    SceneSchedule, SceneSettings, wrong,
 };
 use crate::body::{BodyHandle, Info};
 use crate::error::Result;
 use crate::forces::{BuiltInField, ForceField, Schedule};
+use crate::joint::Joint;
 use crate::math::{Pose, Real, Vec2, Wrench};
 use crate::world::World;
 
@@ -37,6 +38,7 @@ impl SceneFile {
             time_remainder,
             materials: materials(world),
             bodies: (0..bodies.len()).map(|i| body(world, i)).collect(),
+            joints: joints(world)?,
             schedules: world
                 .schedules()
                 .iter()
@@ -89,6 +91,23 @@ fn label(world: &World, body: BodyHandle, path: &str) -> Result<BodyLabel> {
         }
         _ => BodyLabel::Index(index),
     })
+}
+
+fn joints(world: &World) -> Result<Vec<SceneJoint>> {
+    let joint = |(i, joint): (usize, &Joint)| {
+        if let Some(custom) = &joint.custom {
+            let message =
+                format!("the joint {custom:?} is code of your own, which a file cannot hold");
+            return Err(wrong(format!("joints[{i}]"), message));
+        }
+        let mut labels = [None, None];
+        for (side, (own, body)) in labels.iter_mut().zip(joint.def.bodies).enumerate() {
+            let path = format!("joints[{i}].bodies[{side}]");
+            *own = body.map(|body| label(world, body, &path)).transpose()?;
+        }
+        Ok(SceneJoint::new(joint, labels))
+    };
+    world.joints().iter().enumerate().map(joint).collect()
 }
 
 fn schedule(world: &World, own: &Schedule) -> Result<SceneSchedule> {

@@ -4,7 +4,9 @@ use schemars::Schema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-use super::{SCENE_VERSION, SceneBody, SceneFile, SceneOscillating, SceneSettings, wrong};
+use super::{
+    SCENE_VERSION, SceneBody, SceneFile, SceneJoint, SceneOscillating, SceneSettings, wrong,
+};
 use crate::error::{Error, Result};
 
 /// The schema, too, says which version there is.
@@ -74,6 +76,12 @@ pub fn to_json(scene: &SceneFile) -> String {
         leave_out_within(body, &usual, &["locks", "filter"]);
         objects(body, "shapes").for_each(leave_out_of_shape);
     }
+    let usual = object(&SceneJoint::default());
+    for joint in objects(&mut file, "joints") {
+        leave_out(joint, &usual, &["bodies", "joint"]);
+        leave_out_within(joint, &usual, &["state"]);
+        leave_out_of_joint(joint);
+    }
     for schedule in objects(&mut file, "schedules") {
         schedule.retain(|_, value| *value != Value::Array(Vec::new()));
     }
@@ -142,6 +150,24 @@ fn leave_out_of_shape(part: &mut Map<String, Value>) {
                 _ => return true,
             };
             spaced(value) != usual
+        });
+    }
+}
+
+/// In what a joint does, what is not there and what is rigid are the defaults.
+fn leave_out_of_joint(joint: &mut Map<String, Value>) {
+    let kinds = joint.get_mut("joint").and_then(Value::as_object_mut);
+    for kind in kinds.into_iter().flat_map(Map::values_mut).filter_map(Value::as_object_mut) {
+        if let Some(Value::Object(travel)) = kind.get_mut("travel") {
+            travel
+                .retain(|key, value| !value.is_null() && (key != "rest" || spaced(value) != "0.0"));
+        }
+        kind.retain(|key, value| match key.as_str() {
+            "hold" | "linear" | "angular" | "suspension" => value.as_str() != Some("rigid"),
+            "slack" => *value != Value::Bool(false),
+            "travel" => *value != Value::Object(Map::new()),
+            "min_length" => spaced(value) != "0.0",
+            _ => !value.is_null(),
         });
     }
 }

@@ -1,7 +1,7 @@
 //! From a scene file to a world.
 
-use super::{BodyLabel, Material, SceneBody, SceneField, SceneFile, ScenePart, SceneSchedule};
-use super::{SCENE_VERSION, wrong};
+use super::{BodyLabel, Material, SceneBody, SceneField, SceneFile, SceneJoint};
+use super::{SCENE_VERSION, ScenePart, SceneSchedule, wrong};
 use crate::body::{BodyDef, BodyHandle, Part, SurfaceOverride};
 use crate::error::{Error, Result, check};
 use crate::forces::{BuiltInField, ForceSchedule, Oscillating};
@@ -24,6 +24,9 @@ impl SceneFile {
         let mut bodies = Vec::with_capacity(self.bodies.len());
         for (i, body) in self.bodies.iter().enumerate() {
             bodies.push(self.add_body(&mut world, i, body)?);
+        }
+        for (i, joint) in self.joints.iter().enumerate() {
+            self.add_joint(&mut world, &bodies, (i, joint))?;
         }
         for (i, schedule) in self.schedules.iter().enumerate() {
             let path = format!("schedules[{i}]");
@@ -81,6 +84,23 @@ impl SceneFile {
             body.place_center_of_mass(center).map_err(at(&path))?;
         }
         Ok(handle)
+    }
+
+    fn add_joint(
+        &self,
+        world: &mut World,
+        bodies: &[BodyHandle],
+        (i, joint): (usize, &SceneJoint),
+    ) -> Result<()> {
+        let path = format!("joints[{i}]");
+        let mut pair = [None, None];
+        for (side, (body, label)) in pair.iter_mut().zip(&joint.bodies).enumerate() {
+            let find = |label| self.find(label, bodies, &format!("{path}.bodies[{side}]"));
+            *body = label.as_ref().map(find).transpose()?;
+        }
+        let made = world.add_joint(joint.def(pair)).map_err(|error| joint.wrong(&path, &error))?;
+        let made = world.joint_mut(made).map_err(at(&path))?;
+        joint.state.resume(made, &format!("{path}.state"))
     }
 
     /// The shapes of a body with their materials looked up.

@@ -1,5 +1,7 @@
 //! From a definition to a joint: what was left open is taken from where the bodies stand.
 
+use std::mem::discriminant;
+
 use super::{index_of, law_of, pair_of};
 use crate::body::Bodies;
 use crate::constraints::joint::{Action, Law, Pair, Row};
@@ -22,7 +24,10 @@ pub(super) fn joint(bodies: &Bodies, mut def: JointDef, custom: Option<Custom>) 
             Given::Local(direction) => direction,
             Given::World(direction) => frames[0].rot().apply_inverse(direction),
         };
-        *axis = Given::Local(local.normalize());
+        // What was normalised once stays as it is, to the bit.
+        let length = local.norm();
+        let is_unit = (length - 1.0).abs() <= 2.0 * Real::EPSILON;
+        *axis = Given::Local(if is_unit { local } else { local / length });
     }
     let mut joint = Joint {
         def,
@@ -39,6 +44,28 @@ pub(super) fn joint(bodies: &Bodies, mut def: JointDef, custom: Option<Custom>) 
     Ok(joint)
 }
 
+/// What a joint between the same bodies keeps when it is changed: springs that stay as they are and, where its rows are
+/// still of the same kinds, what these remember.
+pub(super) fn carry_over(bodies: &Bodies, before: &Joint, changed: &mut Joint) {
+    let (old, new) = (before.def.kind, changed.def.kind);
+    for (k, (own, known)) in changed.springs.iter_mut().zip(&before.springs).enumerate() {
+        if old.spring(k) == new.spring(k) && own.is_some() && known.is_some() {
+            *own = *known;
+        }
+    }
+    let actions = |joint: &Joint| {
+        let rows = law_of(bodies, joint).rows(&pair_of(bodies, joint)).rows;
+        rows.map(|row| discriminant(&row.action))
+    };
+    if actions(before) == actions(changed) {
+        (changed.impulses, changed.substep) = (before.impulses, before.substep);
+    }
+    if old == new {
+        changed.notch = before.notch;
+    }
+    changed.reaction = before.reaction;
+}
+
 /// Places of the bodies: two different ones, of which at least one can move.
 fn places(bodies: &Bodies, def: &JointDef) -> Result<[Option<usize>; 2]> {
     let mut places = [None; 2];
@@ -47,11 +74,11 @@ fn places(bodies: &Bodies, def: &JointDef) -> Result<[Option<usize>; 2]> {
     }
     if places[0] == places[1] {
         let got = if places[0].is_some() { "the same body twice" } else { "the world twice" };
-        return Err(Error::invalid("the bodies of a joint", got, "two different bodies"));
+        return Err(Error::invalid("the pair of bodies", got, "two different bodies"));
     }
     if !places.iter().flatten().any(|i| bodies.masses[*i].is_free()) {
         let allowed = "at least one dynamic body with an axis that is not locked";
-        return Err(Error::invalid("the bodies of a joint", "two that nothing can move", allowed));
+        return Err(Error::invalid("the pair of bodies", "one that nothing can move", allowed));
     }
     Ok(places)
 }

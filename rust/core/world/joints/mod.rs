@@ -8,12 +8,15 @@ pub use swings::SpringMotion;
 
 pub(super) use step::{Memory, keep, tie, tied};
 
+use std::mem::discriminant;
 use std::sync::Arc;
 
 use crate::body::{Bodies, BodyHandle};
 use crate::constraints::joint::{Action, Law, Pair, Rows};
 use crate::error::{Error, Result};
-use crate::joint::{Constraint, Custom, Joint, JointDef, JointHandle, JointKind};
+use crate::joint::{
+    Coefficients, Constraint, Custom, Joint, JointDef, JointHandle, JointKind, ROWS,
+};
 use crate::math::{Pose, Real, Rot, Twist, Vec2, Wrench, vec2};
 use crate::world::{State, World};
 
@@ -85,8 +88,13 @@ impl World {
         Ok(JointRef { bodies: &self.state.bodies, joint: self.state.joints.get(joint)? })
     }
 
+    /// A joint with all that it remembers, to put that back.
+    pub(crate) fn joint_mut(&mut self, joint: JointHandle) -> Result<&mut Joint> {
+        self.state.joints.get_mut(joint)
+    }
+
     /// Changes a joint: `edit` works on a copy of its definition, and nothing changes if the result is not allowed.
-    /// Springs that change take the bodies' places and masses of now for their effective mass.
+    /// Springs that change take the bodies' places and masses of now for their effective mass; the others stay.
     ///
     /// # Errors
     /// Those of [`World::add_joint`].
@@ -100,13 +108,21 @@ impl World {
         edit(&mut def);
         let mut changed = make::joint(&self.state.bodies, def, before.custom.clone())?;
         let bodies = [before.def.bodies, changed.def.bodies];
-        if changed.def.kind == before.def.kind && bodies[0] == bodies[1] {
-            (changed.springs, changed.notch) = (before.springs, before.notch);
-            (changed.impulses, changed.substep) = (before.impulses, before.substep);
+        let same_pair = bodies[0] == bodies[1];
+        let same_tie = same_pair
+            && discriminant(&changed.def.kind) == discriminant(&before.def.kind)
+            && changed.def.collide_connected == before.def.collide_connected;
+        if same_pair {
+            make::carry_over(&self.state.bodies, before, &mut changed);
         }
-        changed.reaction = before.reaction;
         *self.state.joints.get_mut(joint)? = changed;
-        bodies.into_iter().for_each(|pair| self.rejoin(pair));
+        for pair in bodies {
+            if same_tie {
+                self.wake_joined(pair);
+            } else {
+                self.rejoin(pair);
+            }
+        }
         Ok(())
     }
 
@@ -140,13 +156,21 @@ impl World {
 
     /// What ties two bodies has changed: both wake, and what they may touch is looked for anew.
     fn rejoin(&mut self, bodies: [Option<BodyHandle>; 2]) {
+        self.wake_joined(bodies);
         for body in bodies.into_iter().flatten() {
             if let Ok(i) = self.state.bodies.index(body) {
-                self.pushed(i);
                 self.state.contacts.look_anew(i);
             }
         }
         self.plan = None;
+    }
+
+    fn wake_joined(&mut self, bodies: [Option<BodyHandle>; 2]) {
+        for body in bodies.into_iter().flatten() {
+            if let Ok(i) = self.state.bodies.index(body) {
+                self.pushed(i);
+            }
+        }
     }
 
     /// Forgets the joints of a body that goes.
@@ -180,6 +204,12 @@ impl<'a> JointRef<'a> {
     #[must_use]
     pub fn kind(&self) -> &'a JointKind {
         &self.joint.def.kind
+    }
+
+    /// k and c of the springs of its rows, row by row; none where a row is no spring.
+    #[must_use]
+    pub fn springs(&self) -> &'a [Option<Coefficients>; ROWS] {
+        &self.joint.springs
     }
 
     /// The anchors, in the world (m).
