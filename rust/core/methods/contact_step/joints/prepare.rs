@@ -10,6 +10,9 @@ use crate::methods::contact_step::Group;
 /// Takes targets, compliances and bounds of all rows, and gives the bodies the impulses of the last substep.
 pub fn prepare(group: &mut Group, h: Real) {
     let Group { ties, velocities, .. } = group;
+    if ties.is_empty() {
+        return;
+    }
     sum_rates(ties, velocities);
     let Ties { list, rows, before, rates, .. } = ties;
     for tie in list {
