@@ -17,7 +17,7 @@ const LAYERS: &[&[&str]] = &[
     &["islands", "methods"],
     &["soft", "fluid"],
     &["world"],
-    &["observe"],
+    &["builders", "observe"],
     &["scenes"],
     &["report"],
 ];

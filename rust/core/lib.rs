@@ -31,11 +31,12 @@
 //! # Map
 //!
 //! From the ground up: [`math`], [`error`], [`arena`], [`shapes`], [`body`], [`joint`], [`collision`], [`forces`], [`methods`],
-//! [`world`], [`observe`], [`scenes`], [`report`]. [`docs`] holds the guide, the architecture and the
+//! [`world`], [`builders`], [`observe`], [`scenes`], [`report`]. [`docs`] holds the guide, the architecture and the
 //! decisions.
 
 pub mod arena;
 pub mod body;
+pub mod builders;
 pub mod collision;
 pub mod constraints;
 pub mod error;
