@@ -5,10 +5,11 @@
 //! changes. After a few rounds only the first row that is wrong changes, which ends for any bounds that are apart for
 //! themselves (Murty, "Linear Complementarity", 1988, ch. 4: least index).
 
-use super::prepare::push;
+use super::motors;
+use super::prepare::{mobility, push};
 use super::{Tie, Ties};
 use crate::constraints::Velocity;
-use crate::constraints::joint;
+use crate::constraints::joint::{self, Action};
 use crate::math::{Real, Twist};
 use crate::solvers::direct;
 
@@ -51,15 +52,32 @@ impl Row {
             self.impulse = 0.0;
             return;
         }
+        if low == high {
+            (self.impulse, self.state) = (low, State::Pinned);
+            return;
+        }
         // Within rounding of a bound it was pinned there.
-        let near = |bound: Real| (self.impulse - bound).abs() <= 1e-9 * bound.abs();
-        if low < high && bound_is_set(low) && near(low) || bound_is_set(high) && near(high) {
-            self.state = State::Pinned;
+        let near = |bound: &Real| (self.impulse - bound).abs() <= 1e-9 * bound.abs();
+        let bound = [low, high].into_iter().filter(|bound| bound_is_set(*bound)).find(near);
+        if let Some(bound) = bound {
+            (self.impulse, self.state) = (bound, State::Pinned);
+            return;
         }
         self.impulse = self.impulse.clamp(low, high);
         if self.state == State::Pinned && low == 0.0 {
             self.impulse = 0.0;
         }
+    }
+}
+
+/// Begins two rows with one bound on both together: pinned both or none.
+pub fn start_disc(rows: &mut [Row]) {
+    let [.., bound] = rows[0].bounds;
+    let length = rows[0].impulse.hypot(rows[1].impulse);
+    let pinned = bound_is_set(bound) && length >= bound * (1.0 - 1e-9);
+    for row in rows.iter_mut().take(2).filter(|row| row.state != State::Off) {
+        row.state = if pinned { State::Pinned } else { State::Solved };
+        row.impulse *= if pinned { bound / length } else { 1.0 };
     }
 }
 
@@ -87,9 +105,11 @@ pub fn solve(ties: &mut Ties, velocities: &mut [Velocity], sweeps: u32) -> Real 
         let lacked = correct(ties, velocities);
         first = if round == 0 { lacked } else { first };
         if !review(ties, velocities, round >= TOGETHER) && !by_sweeps {
-            break;
+            return first;
         }
     }
+    // Whatever is not settled, nothing is left beyond its bounds.
+    review(ties, velocities, false);
     first
 }
 
@@ -200,7 +220,16 @@ fn review(ties: &mut Ties, velocities: &mut [Velocity], one_by_one: bool) -> boo
             if changed && one_by_one {
                 return true;
             }
-            changed |= review_row(tie, k, &mut rows[tie.first_row + k], velocities);
+            let rows = &mut rows[tie.first_row..];
+            if rows[k].state == State::Pinned && motors::is_stopped(tie, k, rows) {
+                continue;
+            }
+            if review_row(tie, k, &mut rows[k], velocities) {
+                changed = true;
+                if tie.middle.rows[k].action == Action::Limit && rows[k].state == State::Solved {
+                    motors::yield_to(tie, k, rows, velocities);
+                }
+            }
         }
     }
     changed
@@ -219,8 +248,9 @@ fn review_row(tie: &Tie, k: usize, row: &mut Row, velocities: &mut [Velocity]) -
             let [a, b] = twists(velocities, tie);
             let lacks = missing(row, now, [&a, &b]);
             let noise = ROUNDING * (row.wanted.abs() + speed(now, [&a, &b]));
-            let inward =
-                (row.impulse <= low && lacks > noise) || (row.impulse >= high && lacks < -noise);
+            let inward = low < high
+                && ((row.impulse <= low && lacks > noise)
+                    || (row.impulse >= high && lacks < -noise));
             if inward {
                 row.state = State::Solved;
             }
@@ -261,14 +291,12 @@ fn review_disc(tie: &Tie, rows: &mut [Row], velocities: &mut [Velocity]) -> bool
 
 fn turn_disc(tie: &Tie, rows: &mut [Row], velocities: &mut [Velocity], bound: Real) -> bool {
     let [a, b] = twists(velocities, tie);
+    // The larger eigenvalue: no direction overshoots, and none is preferred.
+    let [xx, yy, xy] = mobility(tie, velocities);
+    let response = 0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy);
     let mut to = [0.0; 2];
     for (k, to) in to.iter_mut().enumerate() {
         let (row, now) = (&rows[k], &tie.middle.rows[k]);
-        let response: Real = (tie.slots.iter().enumerate())
-            .filter_map(|(side, slot)| {
-                Some(now.response(side, velocities[(*slot)? as usize].inverse()))
-            })
-            .sum();
         *to = row.impulse + missing(row, now, [&a, &b]) / (response + row.compliance);
     }
     let length = to[0].hypot(to[1]);

@@ -1,10 +1,10 @@
 //! What each row asks for in a substep.
 
-use super::active::{Row, State};
+use super::active::{Row, State, start_disc};
 use super::{Tie, Ties};
 use crate::constraints::Velocity;
 use crate::constraints::joint::{self, Action, Gains, Rates};
-use crate::math::{Real, Twist};
+use crate::math::{Real, Twist, hypot};
 use crate::methods::contact_step::Group;
 
 /// Takes targets, compliances and bounds of all rows, and gives the bodies the impulses of the last substep.
@@ -28,6 +28,9 @@ pub fn prepare(group: &mut Group, h: Real) {
             let curve = start.velocity(twists) - along;
             match now.action {
                 Action::Off => row.state = State::Off,
+                Action::Hold if now.bound < Real::INFINITY => {
+                    row.wanted = curve - way_back(tie, k, velocities, h);
+                }
                 Action::Hold => row.wanted = curve,
                 Action::Drive(speed) => row.wanted = speed,
                 Action::Limit => limit(row, now, (curve, start), h),
@@ -45,6 +48,10 @@ pub fn prepare(group: &mut Group, h: Real) {
             }
             row.start();
         }
+        if tie.middle.disc {
+            start_disc(&mut rows[tie.first_row..]);
+        }
+        super::motors::start(tie, &mut rows[tie.first_row..]);
     }
     warm_start(ties, velocities);
 }
@@ -64,6 +71,41 @@ fn limit(row: &mut Row, now: &joint::Row, (curve, start): (Real, &joint::Row), h
     let reached = now.position <= 0.0 || (loaded && now.position <= bends);
     row.wanted = if reached { curve } else { -now.position / h };
     row.state = if loaded || reached { State::Solved } else { State::Pinned };
+}
+
+/// Speed (m/s) along row k of a hold with a bounded force that is open: what closes it in a substep, and no more than half
+/// of the bound can brake on the way, so that it arrives and does not swing past.
+fn way_back(tie: &Tie, k: usize, velocities: &[Velocity], h: Real) -> Real {
+    let rows = tie.middle.as_slice();
+    let now = &rows[k];
+    let (open, response) = if tie.middle.disc && k < 2 {
+        let [xx, yy, xy] = mobility(tie, velocities);
+        let (x, y) = (rows[0].position, rows[1].position);
+        let open = hypot(x, y);
+        (open, (xx * x * x + yy * y * y + 2.0 * xy * x * y) / (open * open))
+    } else {
+        (now.position.abs(), coupling(tie, [now, now], velocities))
+    };
+    if open == 0.0 {
+        return 0.0;
+    }
+    now.position * (1.0 / h).min((now.bound * response / open).sqrt())
+}
+
+/// JM⁻¹Jᵀ of the first two rows of a joint: of the first, of the second, between them.
+pub fn mobility(tie: &Tie, velocities: &[Velocity]) -> [Real; 3] {
+    let [x, y, ..] = &tie.middle.rows;
+    [[x, x], [y, y], [x, y]].map(|rows| coupling(tie, rows, velocities))
+}
+
+/// J M⁻¹ J'ᵀ of two rows of a joint (1/kg, or 1/(kg·m²)).
+fn coupling(tie: &Tie, [a, b]: [&joint::Row; 2], velocities: &[Velocity]) -> Real {
+    let of = |side: usize| -> Real {
+        let Some(slot) = tie.slots[side] else { return 0.0 };
+        let inverse = velocities[slot as usize].inverse();
+        (0..3).map(|i| a.jacobian[side][i] * inverse[i] * b.jacobian[side][i]).sum()
+    };
+    of(0) + of(1)
 }
 
 /// Whether two rows run against each other.
