@@ -1,7 +1,7 @@
 //! Conservation: momentum, angular momentum, energy.
 
 use culbuto::World;
-use culbuto::body::{BodyKind, ImpactLaw};
+use culbuto::body::BodyKind;
 use culbuto::math::Real;
 use proptest::prelude::*;
 
@@ -19,33 +19,20 @@ fn scales(world: &World) -> (Real, Real) {
     columns.map(of).fold((0.0, 0.0), |(a, b), (c, d)| (a + c, b + d))
 }
 
-/// Relative to Σ(m|r||v| + I|ω|).
-fn change_of_angular_momentum(bodies: &[Thrown], law: ImpactLaw) -> Real {
-    let mut world = weightless(bodies, law);
-    let center = world.center_of_mass();
-    let (start, scale) = (world.angular_momentum(center), scales(&world).1);
-    world.steps(DT, 60).unwrap();
-    (world.angular_momentum(center) - start).abs() / scale
-}
-
-/// Steps a world, and looks at its energy after each step: the balance stays to `part` of the energy there ever was,
-/// and no energy comes from nowhere. That contact itself never gives is a known limit (docs/decisions.md).
-fn energy_is_accounted_for(world: &mut World, steps: u32, part: Real) -> Result<(), TestCaseError> {
+/// Steps a world, and looks at its energy after each step. Of the energy there ever was, the balance stays to 1e-10, and what
+/// contact took never comes back, in no step, but for rounding: some hundred operations of 1e-16 a step.
+fn energy_is_only_taken_and_booked(world: &mut World, steps: u32) -> Result<(), TestCaseError> {
     let start = world.energy().unwrap();
     let scale = start.kinetic + falls(world);
+    let mut dissipated = start.dissipated;
     for step in 0..steps {
         world.step(DT).unwrap();
         let now = world.energy().unwrap();
-        let off = (now.balance() - start.balance()).abs();
-        prop_assert!(
-            off <= part * scale,
-            "step {}: the balance is off by {:e} of {:e}",
-            step,
-            off,
-            scale
-        );
-        let added = now.total() - start.total() - now.work - now.correction_work;
-        prop_assert!(added <= part * scale, "step {}: {:e} from nowhere", step, added);
+        let off = (now.balance() - start.balance()).abs() / scale;
+        prop_assert!(off <= 1e-10, "step {}: the balance is off by {:e}", step, off);
+        let given = (dissipated - now.dissipated) / scale;
+        prop_assert!(given <= 1e-14, "step {}: {:e} comes back", step, given);
+        dissipated = now.dissipated;
     }
     Ok(())
 }
@@ -74,22 +61,20 @@ proptest! {
         prop_assert!(change <= 1e-12 * scale, "{:e} of {:e}", change, scale);
     }
 
-    /// Two disks that bounce do not overlap, whatever the friction.
+    /// Whatever the shapes, however deep they overlap and whatever parts them. Of Σ(m|r||v| + I|ω|) at the start.
     #[test]
-    fn disks_that_bounce_keep_angular_momentum(
-        bodies in rush(2), law in laws(), radii in prop::array::uniform2(0.2..0.6_f64),
-    ) {
-        let disk = |(body, r): (&Thrown, &Real)| {
-            Thrown { form: Form::Disk(*r), restitution: body.restitution.max(0.3), ..body.clone() }
-        };
-        let disks: Vec<Thrown> = bodies.iter().zip(&radii).map(disk).collect();
-        let change = change_of_angular_momentum(&disks, law);
-        prop_assert!(change <= 1e-10, "{:e}", change);
+    fn no_collision_changes_angular_momentum(bodies in rush(5), law in laws()) {
+        let mut world = weightless(&bodies, law);
+        let center = world.center_of_mass();
+        let (start, scale) = (world.angular_momentum(center), scales(&world).1);
+        world.steps(DT, 60).unwrap();
+        let change = (world.angular_momentum(center) - start).abs();
+        prop_assert!(change <= 1e-12 * scale, "{:e} of {:e}", change, scale);
     }
 
     #[test]
     fn collisions_without_gravity_only_take_energy_and_book_it(bodies in rush(5), law in laws()) {
-        energy_is_accounted_for(&mut weightless(&bodies, law), 60, 1e-10)?;
+        energy_is_only_taken_and_booked(&mut weightless(&bodies, law), 60)?;
     }
 }
 
@@ -100,7 +85,7 @@ proptest! {
     fn piles_that_fall_only_take_energy_and_book_it(bodies in rush(8), law in laws()) {
         let mut world = bin(&bodies);
         world.set_impact_law(law);
-        energy_is_accounted_for(&mut world, 120, 1e-10)?;
+        energy_is_only_taken_and_booked(&mut world, 120)?;
     }
 
     /// Restitution 1 and no friction: nothing is gained. In most scenes the energy stays to 1e-15, but where other corners

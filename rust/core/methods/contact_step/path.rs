@@ -106,7 +106,11 @@ impl Pair<'_> {
             // They touch and do not approach. Another point may swing in: of those that are near now, or of others
             // when they have turned a little.
             let turn = ways.iter().map(|way| (way.to.angle - way.from.angle).abs()).sum::<Real>();
-            let next = time + (to - time) / (turn / LITTLE).ceil().max(1.0);
+            let mut next = time + (to - time) / (turn / LITTLE).ceil().max(1.0);
+            if approach < 0.0 {
+                // They leave: a little later their distance tells when others meet, whatever their features.
+                next = next.min(time + LEFT * self.link.width / -approach);
+            }
             if let Some(found) = self.by_features(manifold, [time, next]) {
                 return Some(found);
             }
@@ -121,14 +125,16 @@ impl Pair<'_> {
         4.0 * Real::EPSILON * (self.link.apart.norm() + ways)
     }
 
-    /// Smallest gap of a manifold at a time, and the fastest approach of the points that are as near.
+    /// Smallest gap of a manifold at a time, and the fastest approach of the points that are as near: below 0 where
+    /// they leave.
     fn nearest(&self, manifold: &Manifold, time: Real) -> (Real, Real) {
         let (places, velocities) = (self.places_at(time), self.velocities_at(time));
         let at = moved(manifold, self.link.apart, [&places[0], &places[1]]);
         let gap = at.gap[..manifold.count].iter().copied().fold(Real::INFINITY, Real::min);
         let near = |k: &usize| at.gap[*k] <= (4.0 * gap).max(NEAREST * self.link.width);
         let approach = |k: usize| -self.rates(manifold, &at, k, (&places, &velocities)).0;
-        let fastest = (0..manifold.count).filter(near).map(approach).fold(0.0, Real::max);
+        let approaches = (0..manifold.count).filter(near).map(approach);
+        let fastest = approaches.fold(Real::NEG_INFINITY, Real::max);
         (gap, fastest)
     }
 
@@ -197,6 +203,9 @@ pub const NEAR: Real = 1e-2;
 
 /// Turn (rad) over which the features that are near do not change: both ends of an edge count as near up to 45°.
 const LITTLE: Real = 0.25;
+
+/// Shapes that leave have left when they are this part of the width apart.
+const LEFT: Real = 1e-6;
 
 /// Down to which part of it further points are told from those that touch.
 const NEAREST: Real = 1e-10;

@@ -5,10 +5,11 @@ use rustc_hash::FxHashMap;
 use super::hooks::Answer;
 use super::near::Kind;
 use super::surroundings::{Fields, Still};
+use super::view::place_of;
 use super::{Contacts, FAR};
 use crate::body::Bodies;
 use crate::collision::{Anchor, Collider, Manifold, Normal};
-use crate::constraints::contact::{Block, Touch};
+use crate::constraints::contact::{Block, Touch, moved};
 use crate::constraints::{Place, Velocity};
 use crate::error::Result;
 use crate::forces::Forces;
@@ -353,12 +354,18 @@ fn link_of(
     let width = x.width.min(y.width);
     let holder = if matches!(patch.manifold.normal, Normal::OnB(_)) { j } else { i };
     let manifold = (&patch.manifold, contacts.frames[holder].rot);
-    let moves = |part, h| moves_far(bodies, [x, y], manifold, (part * width, h));
-    let watched = watched(
-        contacts.spread > FAR * width || moves(FAR, span.h()),
-        (touch.restitution > 0.0, moves(TURNS, span.duration)),
-        x.is_round() && y.is_round(),
-    );
+    let moves = |length, h| moves_far(bodies, [x, y], manifold, (length, h));
+    let (bounces, round) = (touch.restitution > 0.0, x.is_round() && y.is_round());
+    let turns = || {
+        let loaded = patch.memory.impulse != [0.0; 3];
+        let places = [i, j].map(|body| place_of(&contacts.frames[body]));
+        let at = moved(&patch.manifold, apart, [&places[0], &places[1]]);
+        let gap = at.gap[..patch.manifold.count].iter().copied().fold(Real::INFINITY, Real::min);
+        let arrives = !loaded && moves(gap.max(LITTLE * width), span.duration);
+        arrives || moves(TURNS * width, span.duration)
+    };
+    let far = contacts.spread > FAR * width || moves(FAR * width, span.h());
+    let watched = watched(far, (bounces, !round && bounces && turns()), round);
     let tangent_speed = touch.tangent_speed;
     let link = Link {
         apart,
@@ -413,6 +420,9 @@ fn watched(far: bool, (bounces, turns): (bool, bool), round: bool) -> Watched {
 
 /// A motion in a step beyond this part of the width may bring other features together.
 const TURNS: Real = 0.25;
+
+/// One below this part of the width does not, or by less than bodies may overlap.
+const LITTLE: Real = 1e-2;
 
 /// Whether two bodies move farther against one another in a time h than a length, so that other features than those of
 /// the manifold may meet. What slides along a face and stays on it does not.
