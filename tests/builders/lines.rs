@@ -31,7 +31,7 @@ fn length(points: &[Vec2]) -> Real {
 #[test]
 fn a_rope_has_the_length_and_the_mass_it_is_given_and_keeps_them() {
     for form in FORMS {
-        for (links, whole) in [(2, 2.5), (7, 2.5), (20, 2.0), (20, 6.0), (1, 2.0)] {
+        for (links, whole) in [(2, 2.5), (7, 2.5), (20, 2.01), (20, 6.0)] {
             let mut world = earth();
             let ends = between([1.0, 5.0], [3.0, 5.0]);
             let rope = RopeDef {
@@ -183,6 +183,18 @@ fn a_bridge_breaks_under_what_is_too_heavy_and_only_then() {
     }
     let fallen = world.body(box_).unwrap().position().y;
     assert!(fallen < -5.0, "the box is at {fallen}");
+}
+
+/// Between fixed ends it is a thousandth longer than straight: sag² = ⅜·span·(length − span) of a shallow parabola.
+#[test]
+fn a_bridge_that_is_given_no_length_hardly_sags_and_bears_itself() {
+    let mut world = earth();
+    let bridge = BridgeDef { body: calm(), ..BridgeDef::new(between([-3.0, 0.0], [3.0, 0.0])) };
+    let bridge = bridge.build(&mut world).unwrap();
+    assert_close(bridge.mass(&world).unwrap(), 6.006, 1e-12);
+    world.steps(DT, 600).unwrap();
+    let lowest = hinges(&world, &bridge).iter().map(|p| p.y).fold(0.0, Real::min);
+    assert_close(-lowest, (0.375 * 6.0 * 0.006_f64).sqrt(), 1e-2);
 }
 
 #[test]

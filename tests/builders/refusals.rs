@@ -28,6 +28,7 @@ fn ends() -> [End; 2] {
 fn ropes_chains_and_bridges() {
     let rope = || RopeDef::new(ends());
     refused("length", |w| RopeDef { length: Some(1.9), ..rope() }.build(w));
+    refused("length", |w| RopeDef { length: Some(2.0), ..rope() }.build(w));
     refused("length", |w| RopeDef { length: Some(NAN), ..rope() }.build(w));
     refused("links", |w| RopeDef { links: 0, ..rope() }.build(w));
     refused("links", |w| RopeDef { links: 1, length: Some(3.0), ..rope() }.build(w));

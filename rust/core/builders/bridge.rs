@@ -16,7 +16,7 @@ pub struct BridgeDef {
     pub name: String,
     /// What it hangs on.
     pub anchors: [End; 2],
-    /// Length along the planks (m); none: as far as the anchors are apart.
+    /// Length along the planks (m); none: as far as the anchors are apart, and a thousandth more where both are fixed.
     pub length: Option<Real>,
     /// Number of planks.
     pub planks: usize,
@@ -31,7 +31,7 @@ pub struct BridgeDef {
 }
 
 impl BridgeDef {
-    /// Twelve planks of 1 kg/m, straight.
+    /// Twelve planks of 1 kg/m from one anchor to the other.
     #[must_use]
     pub fn new(anchors: [End; 2]) -> Self {
         Self {
@@ -49,7 +49,8 @@ impl BridgeDef {
     /// Adds the bridge.
     ///
     /// # Errors
-    /// [`crate::Error::Invalid`] for numbers that are not allowed, among them a length below the distance of the anchors;
+    /// [`crate::Error::Invalid`] for numbers that are not allowed, among them a length below the distance of the anchors, or
+    /// no slack between fixed ones;
     /// [`crate::Error::StaleHandle`] for a body that is gone. The world stays as it was.
     pub fn build(&self, world: &mut World) -> Result<Assembly> {
         check::positive("mass_per_length", self.mass_per_length)?;

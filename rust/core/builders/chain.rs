@@ -19,7 +19,7 @@ pub struct ChainDef {
     pub name: String,
     /// Where it begins and ends.
     pub ends: [End; 2],
-    /// Length (m); none: as far as the ends are apart.
+    /// Length (m); none: as far as the ends are apart, and a thousandth more where both are fixed.
     pub length: Option<Real>,
     /// Number of links.
     pub links: usize,
@@ -34,7 +34,7 @@ pub struct ChainDef {
 }
 
 impl ChainDef {
-    /// Twenty links of 1 kg/m, straight.
+    /// Twenty links of 1 kg/m from one end to the other.
     #[must_use]
     pub fn new(ends: [End; 2]) -> Self {
         Self {
@@ -52,7 +52,8 @@ impl ChainDef {
     /// Adds the chain.
     ///
     /// # Errors
-    /// [`crate::Error::Invalid`] for numbers that are not allowed, among them a length below the distance of the ends;
+    /// [`crate::Error::Invalid`] for numbers that are not allowed, among them a length below the distance of the ends, or no
+    /// slack between fixed ones;
     /// [`crate::Error::StaleHandle`] for a body that is gone. The world stays as it was.
     pub fn build(&self, world: &mut World) -> Result<Assembly> {
         check::positive("mass_per_length", self.mass_per_length)?;

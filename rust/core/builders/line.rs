@@ -29,6 +29,15 @@ impl End {
         }
     }
 
+    /// Whether nothing the rope does can move it.
+    fn is_fixed(&self, world: &World) -> bool {
+        match *self {
+            Self::Free(_) => false,
+            Self::World(_) => true,
+            Self::Body(body, _) => world.body(body).is_ok_and(|body| !body.mass().is_free()),
+        }
+    }
+
     /// What a joint at the end holds on to, and where; none: there is no joint.
     pub(super) fn hold(&self) -> Option<(Side, Given)> {
         match *self {
@@ -47,7 +56,7 @@ const MOST: usize = 1_000_000;
 pub(super) struct Layout {
     /// Where it begins and ends.
     pub ends: [End; 2],
-    /// Length along it (m); none: as far as the ends are apart.
+    /// Length along it (m); none: as far as the ends are apart, and a thousandth more where both are fixed.
     pub length: Option<Real>,
     /// Number of links.
     pub count: usize,
@@ -75,10 +84,18 @@ impl Layout {
         }
         let [a, b] = [self.ends[0].point(world)?, self.ends[1].point(world)?];
         let apart = (b - a).norm();
-        let length = check::positive("length", self.length.unwrap_or(apart))?;
+        let fixed = self.ends.iter().all(|end| end.is_fixed(world));
+        let usual = if fixed { apart * (1.0 + SLACK) } else { apart };
+        let length = check::positive("length", self.length.unwrap_or(usual))?;
         let slack = length > apart * (1.0 + ROUNDING);
         if length < apart * (1.0 - ROUNDING) {
             let allowed = format!("{apart} m or more, which the ends are apart");
+            return Err(Error::invalid("length", length, allowed));
+        }
+        if fixed && length < apart * (1.0 + LEAST_SLACK) {
+            let allowed = format!(
+                "above {apart} m, which the fixed ends are apart: taut, it could bear nothing"
+            );
             return Err(Error::invalid("length", length, allowed));
         }
         if slack && count == 1 {
@@ -98,6 +115,12 @@ impl Layout {
         Ok(line)
     }
 }
+
+/// Slack of what hangs between two fixed ends if no length is given: it sags by 2 % of the span.
+const SLACK: Real = 1e-3;
+
+/// The least there. Exactly taut, links that do not stretch pull with an infinite force against any load.
+const LEAST_SLACK: Real = 1e-6;
 
 /// Lengths that differ by less are the same.
 const ROUNDING: Real = 1e-12;
