@@ -87,9 +87,9 @@ fn a_strip_stretches_by_its_modulus() {
     assert_close(strip.area, area, 1e-12);
     let pulled: Vec<usize> = (0..count).filter(|k| at[*k].x > width - 0.6 * spacing).collect();
     let force = 1e-3 * 1000.0 * height;
-    for k in 0..count {
+    for (k, p) in at.iter().enumerate() {
         let mut body = world.body_mut(strip.parts.bodies[k]).unwrap();
-        if at[k].x < 0.6 * spacing {
+        if p.x < 0.6 * spacing {
             body.set_kind(BodyKind::Static).unwrap();
         } else if pulled.contains(&k) {
             let share = vec2(force / pulled.len() as Real, 0.0);

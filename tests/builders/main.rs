@@ -1,5 +1,7 @@
 //! Objects made of joints are what their definitions say, and move as such things do.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests may, as tests do
+
 mod figures;
 mod lattices;
 mod lines;
