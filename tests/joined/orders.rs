@@ -21,7 +21,7 @@ fn measured(errors: &[Real]) -> Real {
     }
 }
 
-/// Checks the order of every method by the error of places and velocities of all bodies after a time, in n = 8, 16, … steps.
+/// Checks the order of every method by the error of places and velocities of all bodies after a time, in n = 2, 4, … steps.
 fn check(what: &str, make: impl Fn(&str) -> World, time: Real, exact: &[[Real; 4]]) {
     let mut wrong = Vec::new();
     for facts in with_joints() {
@@ -31,7 +31,7 @@ fn check(what: &str, make: impl Fn(&str) -> World, time: Real, exact: &[[Real; 4
             // A method may refuse a step that is too long for it.
             world.steps(time / Real::from(n), n).map_or(Real::INFINITY, |()| apart(&world, exact))
         };
-        let errors: Vec<Real> = (3..14).map(at).collect();
+        let errors: Vec<Real> = (1..14).map(at).collect();
         let order = measured(&errors);
         let shown: Vec<_> = errors.iter().map(|e| format!("{e:.1e}")).collect();
         println!("{what}: {:20} order {order:.3} of {shown:?}", facts.name);
@@ -80,7 +80,8 @@ fn of_a_double_pendulum() {
 
 #[test]
 fn of_springs_with_and_without_damping() {
-    for (damping_ratio, time) in [(0.0, 0.9), (0.3, 0.9), (1.5, 0.15)] {
+    let time = 0.9;
+    for damping_ratio in [0.0, 0.1, 0.3] {
         // x'' = −ω²x − 2ζωx'.
         let omega = std::f64::consts::TAU * 2.0;
         let slope = |_: Real, [x, v]: &[Real; 2]| {
