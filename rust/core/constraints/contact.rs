@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::motion::{Place, Velocity, lever};
 use crate::body::Friction;
 use crate::collision::{Manifold, Normal};
-use crate::math::{Real, Twist, Vec2, perp, vec2};
+use crate::math::{Real, Twist, Vec2, cross, perp, vec2};
 
 /// What stays of a manifold from step to step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -286,6 +286,16 @@ impl Block {
         let along_t = self.tangent().dot(&apart);
         let spin = |k: usize| self.arms[k][1] * b.twist.angular - self.arms[k][0] * a.twist.angular;
         [along_n + spin(0), along_n + spin(1), along_t + spin(2)]
+    }
+
+    /// Angular momentum that the impulses give the two bodies together, B's centre of mass `apart` from A's: 0 to rounding
+    /// where the lever arms are those of bodies that are so far apart.
+    #[must_use]
+    pub fn couple(&self, apart: Vec2) -> Real {
+        let sum =
+            self.normal * (self.impulse[0] + self.impulse[1]) + self.tangent() * self.impulse[2];
+        let torque = |k: usize| (self.arms[k][1] - self.arms[k][0]) * self.impulse[k];
+        cross(apart, sum) + torque(0) + torque(1) + torque(2)
     }
 
     /// Gives the bodies these impulses.

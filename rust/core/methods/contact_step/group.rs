@@ -5,7 +5,6 @@ use super::joints::Ties;
 use crate::collision::Manifold;
 use crate::constraints::contact::Block;
 use crate::constraints::{Place, Velocity};
-use crate::forces::Ledger;
 use crate::math::{Real, Twist, Vec2};
 
 /// m (kg) and I (kg·m²), for energies; 0 of a body whose motion is given.
@@ -67,6 +66,8 @@ pub struct Link {
     pub loaded: Manifold,
     /// It met in this substep.
     pub met: bool,
+    /// Its rows are placed where its bodies are after the middle of the substep.
+    pub late: bool,
     /// It is apart in this substep: no row.
     pub apart_now: bool,
     /// Points that are watched and stand beside the face, where there is nothing to touch.
@@ -96,6 +97,7 @@ impl Link {
             found: manifold,
             loaded: manifold,
             met: false,
+            late: false,
             apart_now: false,
             beside: [false; 2],
             hit: Hit::default(),
@@ -124,6 +126,19 @@ impl Default for Hit {
         let zero = Vec2::zeros();
         Self { impulse: 0.0, approach: 0.0, time: 0.0, point: zero, normal: zero }
     }
+}
+
+/// What the rows of a substep do (J).
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct RowWork {
+    /// What they give the bodies beyond what driven surfaces do; below 0, as it should be, where they take.
+    pub gain: Real,
+    /// Done by driven surfaces.
+    pub given: Real,
+    /// ½ΔvᵀMΔv of the change of velocities that they make.
+    pub changed: Real,
+    /// What rounding may do to `gain`.
+    pub rounding: Real,
 }
 
 /// Bodies that move together, in slots, and their contacts. Kept between steps, so that a warm step
@@ -183,13 +198,12 @@ impl Group {
         thrown.map(|(way, _)| way).fold(0.0, Real::max)
     }
 
-    /// Books what the rows of a substep took from the bodies.
+    /// The work of the rows of a substep.
     ///
     /// With half the drift before the rows and half after, an impulse p does the work p·½(v⁻ + v⁺), v⁻ the velocity
-    /// at the start of the substep, whatever constant force acts meanwhile. What driven surfaces give is work. `by_joints`
-    /// is what joints gave, which is booked with them (J).
-    pub(super) fn book_rows(&self, h: Real, by_joints: Real, ledger: &mut Ledger) {
-        let mut gained = -by_joints;
+    /// at the start of the substep, whatever constant force acts meanwhile. What driven surfaces give is no gain.
+    pub(super) fn row_work(&self, h: Real) -> RowWork {
+        let mut work = RowWork::default();
         let bodies = self.velocities.iter().zip(&self.places).zip(&self.masses).zip(&self.free);
         for (((velocity, place), mass), free) in bodies {
             let (now, kick) = (&velocity.twist, place.kick(h));
@@ -198,11 +212,13 @@ impl Group {
                 now.linear + free.linear - kick.linear,
                 now.angular + free.angular - kick.angular,
             );
-            gained += 0.5 * mass.work(&change, &sum);
+            work.gain += 0.5 * mass.work(&change, &sum);
+            work.changed += 0.5 * mass.work(&change, &change);
+            work.rounding += Real::EPSILON * (mass.work(now, now) + mass.work(free, free));
         }
-        let given = if self.driven { self.driving_work() } else { 0.0 };
-        ledger.work += given;
-        ledger.dissipated += given - gained;
+        work.given = if self.driven { self.driving_work() } else { 0.0 };
+        work.gain -= work.given;
+        work
     }
 
     fn driving_work(&self) -> Real {

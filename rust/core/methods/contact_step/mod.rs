@@ -14,11 +14,12 @@ pub mod joints;
 mod law;
 mod path;
 mod project;
+mod settle;
 
 use crate::body::ImpactLaw;
 use crate::collision::{Manifold, Sweep};
 use crate::constraints::contact::{Block, curvature, moved};
-use crate::constraints::{Place, Velocity};
+use crate::constraints::Place;
 use crate::error::Result;
 use crate::forces::Ledger;
 use crate::math::{Real, Twist};
@@ -107,7 +108,7 @@ pub fn run(
             impacts::resolve_turned(group, h, settings.law, (around, &mut outcome));
         }
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
-        outcome.ledger.correction_work += project::apart(group, h);
+        project::apart(group, h, &mut outcome);
         if !group.ties.is_empty() {
             outcome.ledger.correction_work += joints::close(group, h);
             joints::book_dampers(group, &mut outcome.ledger);
@@ -144,6 +145,7 @@ fn place_block(group: &mut Group, k: usize, time: Real) {
     };
     let at = moved(&link.manifold, link.apart, bodies);
     block.place(&link.manifold, &at, [&velocities[a], &velocities[b]]);
+    link.late = time > 0.0;
     block.target[2] = link.tangent_speed;
     link.turning = 0.0;
     let load = block.impulse[0] + block.impulse[1];
@@ -181,6 +183,8 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
         let [a, b] = block.bodies.map(|slot| slot as usize);
         let bodies = [&velocities[a], &velocities[b]];
         let along = block.velocity(bodies);
+        // A look within the step may have found fewer points.
+        block.on = [false; 2];
         for (k, along) in along.iter().enumerate().take(link.manifold.count) {
             let kick = kicked(block, k, [&places[a], &places[b]], h);
             (block.target[k], block.on[k]) = row(link, (block, k), (*along, kick), h);
@@ -192,43 +196,23 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
     }
     sweep::warm_start(velocities, blocks);
     joints::prepare(group, h);
-    let Group { velocities, blocks, links, ties, .. } = group;
-    let most = settings.sweeps.max(SMALL / (blocks.len() as u32).max(1)).min(5 * settings.sweeps);
+    let most =
+        settings.sweeps.max(SMALL / (group.blocks.len() as u32).max(1)).min(5 * settings.sweeps);
     let budget = Budget { tolerance: CALM * fastest, most };
-    let (sweeps, residual) = if ties.is_empty() {
-        sweep::solve(velocities, blocks, budget)
-    } else {
-        alternate(ties, (velocities, blocks), budget)
-    };
-    outcome.sweeps += u64::from(sweeps);
-    outcome.residual = outcome.residual.max(residual);
-    for (block, link) in blocks.iter().zip(links) {
+    let mut work = settle::settle(group, (h, budget), outcome);
+    if !group.ties.is_empty() {
+        work.gain -= joints::book(group, h, &mut outcome.ledger);
+    } else if work.gain > work.rounding {
+        work = settle::weaken(group, &work, outcome);
+    }
+    outcome.ledger.work += work.given;
+    outcome.ledger.dissipated -= work.gain;
+    for (block, link) in group.blocks.iter().zip(&mut group.links) {
         link.passed += block.impulse[0] + block.impulse[1];
     }
-    let by_joints = joints::book(group, h, &mut outcome.ledger);
-    group.book_rows(h, by_joints, &mut outcome.ledger);
-}
-
-/// Joints, all at once, and contacts, one after the other, in turn until neither changes; joints have the last word.
-fn alternate(
-    ties: &mut joints::Ties,
-    (velocities, blocks): (&mut [Velocity], &mut [Block]),
-    budget: Budget,
-) -> (u32, Real) {
-    joints::solve(ties, velocities, budget.most.div_ceil(2));
-    if blocks.is_empty() {
-        return (0, 0.0);
+    if !group.watch.blocks.is_empty() {
+        project::turn_back_late(group, h, outcome);
     }
-    let single = Budget { most: 1, ..budget };
-    let mut residual = 0.0;
-    for sweep in 1..=budget.most {
-        (_, residual) = sweep::solve(velocities, blocks, single);
-        residual = joints::solve(ties, velocities, 1).max(residual);
-        if residual <= budget.tolerance {
-            return (sweep, residual);
-        }
-    }
-    (budget.most, residual)
 }
 
 /// Part of the substep's kick to which the velocities of the rows must settle.
@@ -243,10 +227,6 @@ fn kick_along(block: &Block, [a, b]: [&Place; 2], h: Real) -> Real {
     block.normal.dot(&apart).abs() * h
 }
 
-/// A contact that persists leaves as fast as it came, but for the change of its curvature. One that should leave
-/// faster than this many times that does not persist: pushed so, it would gain energy.
-const PERSISTS: Real = 1.02;
-
 /// Velocity of row k that a kick of length h gives.
 fn kicked(block: &Block, k: usize, [a, b]: [&Place; 2], h: Real) -> Real {
     let (a, b) = (&a.acceleration, &b.acceleration);
@@ -258,7 +238,8 @@ fn kicked(block: &Block, k: usize, [a, b]: [&Place; 2], h: Real) -> Real {
 ///
 /// Touching: v ≥ 0, or along a curve v ≥ −½h·J̇v, which with the velocity before makes J(v⁻ + v⁺) = 0. Not yet
 /// touching: s + vh + ½J̇v·h² ≥ 0 in the next middle, where the curve opens. Under a load, a gap below what the curve
-/// itself opens in half a step counts as touching.
+/// itself opens in half a step counts as touching. Never is more asked than that it leaves as fast as it came, v ≤ −v⁻: an
+/// impulse p does the work p·½(v⁻ + v), which must not be above 0.
 fn row(
     link: &Link,
     (block, k): (&Block, usize),
@@ -274,9 +255,8 @@ fn row(
     // What arrives by an impact is not braked before, and what passes by the face not at all.
     let arrives = link.watched != Watched::No && along < -link.resting[k];
     if gap <= 0.0 || (loaded && gap <= (bend * h).abs()) {
-        let (came, wanted) = ((kick - along).max(0.0), -0.5 * bend);
-        let persisting = if wanted > PERSISTS * came { came } else { wanted };
-        return (if loaded { persisting } else { 0.0 }, !(arrives && link.beside[k]));
+        let wanted = if loaded { (-0.5 * bend).min((kick - along).max(0.0)) } else { 0.0 };
+        return (wanted, !(arrives && link.beside[k]));
     }
     let opening = if loaded { 0.0 } else { 0.5 * bend.max(0.0) };
     (-gap / h - opening, !arrives && !link.passes[k])

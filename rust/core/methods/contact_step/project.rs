@@ -1,35 +1,36 @@
 //! Overlap removed by moving positions only, so that no velocity comes of it (Cline and Pai, "Post-stabilization
-//! for rigid body simulation with contact and constraints", 2003).
+//! for rigid body simulation with contact and constraints", 2003), but for what keeps angular momentum.
+//!
+//! Moving bodies carries their momenta to other lines; the two that are parted are then turned back together, so that
+//! angular momentum stays.
 
-use super::Group;
-use crate::constraints::contact::moved;
+use super::{Group, Outcome};
+use crate::constraints::contact::{Block, moved};
 use crate::constraints::{Place, Velocity};
-use crate::math::Real;
+use crate::math::{Real, Twist, cross, perp};
 
 /// Overlap that is left alone, as a part of the smaller width: contacts stay closed and calm.
 const SLOP: Real = 5e-4;
 /// Part of the rest that one pass removes.
 const PART: Real = 0.3;
 /// Most that a pass removes, as a part of the width.
-const MOST: Real = 0.05;
+pub const MOST: Real = 0.05;
 /// Passes a substep.
 const PASSES: usize = 2;
 
-/// Moves bodies apart; returns the work that takes against the forces (J).
-pub fn apart(group: &mut Group, h: Real) -> Real {
-    let mut work = 0.0;
+/// Moves bodies apart, and books the work that takes against the forces.
+pub fn apart(group: &mut Group, h: Real, outcome: &mut Outcome) {
     for pass in 0..PASSES {
         let mut any = false;
         for k in 0..group.blocks.len() {
             if pass > 0 || may_overlap(group, k, h) {
-                any |= part_block(group, (k, h), &mut work);
+                any |= part_block(group, (k, h), outcome);
             }
         }
         if !any {
             break;
         }
     }
-    work
 }
 
 /// Whether a block will overlap at the end of the substep, by its gap in the middle.
@@ -42,7 +43,7 @@ fn may_overlap(group: &Group, k: usize, h: Real) -> bool {
 }
 
 /// Parts one block. Points that part by themselves within two substeps are left to do so.
-fn part_block(group: &mut Group, (k, h): (usize, Real), work: &mut Real) -> bool {
+fn part_block(group: &mut Group, (k, h): (usize, Real), outcome: &mut Outcome) -> bool {
     let Group { velocities, places, blocks, links, masses, .. } = group;
     let (block, link) = (&blocks[k], &links[k]);
     let [a, b] = block.bodies.map(|slot| slot as usize);
@@ -66,6 +67,7 @@ fn part_block(group: &mut Group, (k, h): (usize, Real), work: &mut Real) -> bool
         return false;
     }
     let push = pushes(&mut now, wanted, [&velocities[a], &velocities[b]]);
+    let mut carried = 0.0;
     for (side, slot, sign) in [(0, a, -1.0), (1, b, 1.0)] {
         let impulse = push.map(|x| sign * x);
         let torque = now.arms[0][side] * impulse[0] + now.arms[1][side] * impulse[1];
@@ -75,19 +77,65 @@ fn part_block(group: &mut Group, (k, h): (usize, Real), work: &mut Real) -> bool
             (velocity.inverse_mass.component_mul(&sum), velocity.inverse_inertia * torque);
         place.way += way;
         place.rotate(turn);
+        carried += masses[slot].mass * cross(way, velocity.twist.linear);
         let force = place.acceleration;
-        *work -= masses[slot].mass * force.linear.dot(&way)
+        outcome.ledger.correction_work -= masses[slot].mass * force.linear.dot(&way)
             + masses[slot].inertia * force.angular * turn;
     }
+    turn_back(group, (k, carried), 0.0, outcome);
     true
 }
 
+/// Gives back what the impulses of rows that are placed after the middle of the substep took of the angular momentum, since they
+/// act in the middle, where the bodies are not yet there.
+pub fn turn_back_late(group: &mut Group, h: Real, outcome: &mut Outcome) {
+    for k in 0..group.blocks.len() {
+        let (block, link) = (&group.blocks[k], &group.links[k]);
+        if link.late && block.impulse != [0.0; 3] {
+            let [a, b] = block.bodies.map(|slot| &group.places[slot as usize]);
+            let carried = block.couple(link.apart + (b.way - a.way));
+            turn_back(group, (k, carried), h, outcome);
+        }
+    }
+}
+
+/// Takes angular momentum from the two bodies of a block, by the least change of velocities that does: they turn as one rigid body
+/// about their common centre of mass, so that they move against one another at the contact as before. The energy that it gives
+/// is booked, the kick of the substep of length h being done. Bodies that do not give way in every direction keep no
+/// angular momentum.
+fn turn_back(group: &mut Group, (k, carried): (usize, Real), h: Real, outcome: &mut Outcome) {
+    let Group { velocities, places, blocks, links, masses, .. } = group;
+    let [a, b] = blocks[k].bodies.map(|slot| slot as usize);
+    let free = |slot: usize| {
+        let Velocity { inverse_mass, inverse_inertia, .. } = velocities[slot];
+        inverse_mass.x > 0.0 && inverse_mass.y > 0.0 && inverse_inertia > 0.0
+    };
+    if carried == 0.0 || !free(a) || !free(b) {
+        return;
+    }
+    let apart = links[k].apart + (places[b].way - places[a].way);
+    let [m, n] = [a, b].map(|slot| masses[slot].mass);
+    let shares = [-n / (m + n), m / (m + n)];
+    let inertia = masses[a].inertia + masses[b].inertia + n * shares[1] * apart.norm_squared();
+    let turn = -carried / inertia;
+    for (slot, share) in [(a, shares[0]), (b, shares[1])] {
+        let change = Twist::new(perp(apart) * (share * turn), turn);
+        let old = velocities[slot].twist;
+        velocities[slot].twist += change;
+        let (new, kick) = (velocities[slot].twist, places[slot].kick(h));
+        let mean = Twist::new(
+            (old.linear + new.linear - kick.linear) * 0.5,
+            0.5 * (old.angular + new.angular - kick.angular),
+        );
+        outcome.ledger.correction_work += masses[slot].work(&change, &mean);
+        // What other contacts of the body do not know.
+        let size = change.linear.norm() + turn.abs() * links[k].width;
+        outcome.residual = outcome.residual.max(size);
+    }
+}
+
 /// Shares of the two points that move both by what is wanted, or one of them at least that much.
-fn pushes(
-    now: &mut crate::constraints::contact::Block,
-    wanted: [Real; 2],
-    bodies: [&Velocity; 2],
-) -> [Real; 2] {
+fn pushes(now: &mut Block, wanted: [Real; 2], bodies: [&Velocity; 2]) -> [Real; 2] {
     now.prepare(bodies);
     let [k00, k11, k01, ..] = now.response;
     let alone = |w: Real, k: Real| if k > 0.0 { w / k } else { 0.0 };

@@ -1,0 +1,109 @@
+//! Rows swept until they settle and give no energy.
+
+use super::group::RowWork;
+use super::{Group, Outcome, joints, project};
+use crate::constraints::Velocity;
+use crate::constraints::contact::Block;
+use crate::math::{Real, Twist};
+use crate::solvers::sweep::{self, Budget};
+
+/// Times that the budget of sweeps is granted again.
+const MOST_ROUNDS: u32 = 20;
+
+/// Energy, as a part of that of the change of velocities, that is taken back by weakening all rows alike.
+const LITTLE: Real = 1e-3;
+
+/// Sweeps until the velocities settle or the budget is used up, and on while what they lack would bring bodies farther into one
+/// another than a pass of [`project`] brings them out. Where the rows give more than a little energy, what they ask for is
+/// limited to what gives none, and they are swept on as well.
+pub fn settle(group: &mut Group, (h, budget): (Real, Budget), outcome: &mut Outcome) -> RowWork {
+    let width = group.links.iter().map(|link| link.width).fold(0.0, Real::max);
+    let mut limited = false;
+    for round in 0.. {
+        let (sweeps, residual) = sweep(group, budget);
+        outcome.sweeps += u64::from(sweeps);
+        let work = group.row_work(h);
+        let gives = work.gain > LITTLE * work.changed;
+        let lacks = residual * h > project::MOST * width;
+        let settled = residual <= budget.tolerance && (limited || !gives);
+        let last = round == MOST_ROUNDS || !group.ties.is_empty();
+        if last || settled || !(gives || lacks) {
+            outcome.residual = outcome.residual.max(residual);
+            return work;
+        }
+        if gives && !limited {
+            limit_targets(group, h);
+            limited = true;
+        }
+    }
+    unreachable!("the last round returns")
+}
+
+fn sweep(group: &mut Group, budget: Budget) -> (u32, Real) {
+    let Group { velocities, blocks, ties, .. } = group;
+    if ties.is_empty() {
+        sweep::solve(velocities, blocks, budget)
+    } else {
+        alternate(ties, (velocities, blocks), budget)
+    }
+}
+
+/// Joints, all at once, and contacts, one after the other, in turn until neither changes; joints have the last word.
+fn alternate(
+    ties: &mut joints::Ties,
+    (velocities, blocks): (&mut [Velocity], &mut [Block]),
+    budget: Budget,
+) -> (u32, Real) {
+    joints::solve(ties, velocities, budget.most.div_ceil(2));
+    if blocks.is_empty() {
+        return (0, 0.0);
+    }
+    let single = Budget { most: 1, ..budget };
+    let mut residual = 0.0;
+    for sweep in 1..=budget.most {
+        (_, residual) = sweep::solve(velocities, blocks, single);
+        residual = joints::solve(ties, velocities, 1).max(residual);
+        if residual <= budget.tolerance {
+            return (sweep, residual);
+        }
+    }
+    (budget.most, residual)
+}
+
+/// v ≤ −v⁻ of every row: it leaves no faster than it came, and what parts already falls back.
+fn limit_targets(group: &mut Group, h: Real) {
+    let Group { velocities, places, blocks, free, .. } = group;
+    for block in blocks {
+        let start = block.bodies.map(|slot| {
+            let slot = slot as usize;
+            let kick = places[slot].kick(h);
+            let twist =
+                Twist::new(free[slot].linear - kick.linear, free[slot].angular - kick.angular);
+            Velocity { twist, ..velocities[slot] }
+        });
+        let came = block.velocity([&start[0], &start[1]]);
+        for k in 0..usize::from(block.count) {
+            block.target[k] = block.target[k].min(-came[k]);
+        }
+    }
+}
+
+/// Weakens all impulses of the rows by that part which makes them give no energy: weakened by a factor s they do the work
+/// s(gain − changed) + s²·changed.
+pub fn weaken(group: &mut Group, work: &RowWork, outcome: &mut Outcome) -> RowWork {
+    let part = (1.0 - work.gain / work.changed).max(0.0);
+    let Group { velocities, free, blocks, .. } = group;
+    for (velocity, free) in velocities.iter_mut().zip(&*free) {
+        let now = &mut velocity.twist;
+        let change = now.linear - free.linear;
+        outcome.residual = outcome.residual.max((1.0 - part) * change.norm());
+        now.linear = free.linear + change * part;
+        now.angular = free.angular + (now.angular - free.angular) * part;
+    }
+    for block in blocks {
+        block.impulse.iter_mut().for_each(|impulse| *impulse *= part);
+        block.rolling *= part;
+    }
+    let gain = part * (work.gain + (part - 1.0) * work.changed);
+    RowWork { gain, given: part * work.given, ..*work }
+}
