@@ -18,8 +18,8 @@ mod settle;
 
 use crate::body::ImpactLaw;
 use crate::collision::{Manifold, Sweep};
-use crate::constraints::contact::{Block, curvature, moved};
 use crate::constraints::Place;
+use crate::constraints::contact::{Block, curvature, moved};
 use crate::error::Result;
 use crate::forces::Ledger;
 use crate::math::{Real, Twist};
