@@ -82,8 +82,8 @@ fn limit_targets(group: &mut Group, h: Real) {
             Velocity { twist, ..velocities[slot] }
         });
         let came = block.velocity([&start[0], &start[1]]);
-        for k in 0..usize::from(block.count) {
-            block.target[k] = block.target[k].min(-came[k]);
+        for (target, came) in block.target.iter_mut().zip(came).take(usize::from(block.count)) {
+            *target = target.min(-came);
         }
     }
 }
