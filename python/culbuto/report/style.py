@@ -35,6 +35,7 @@ DIAMOND = "M0,-1.1L1.1,0L0,1.1L-1.1,0Z"
 UP = "M0,-1L1,.9H-1Z"
 DOWN = "M0,1L1,-.9H-1Z"
 LEFT = "M-1,0L.9,-1V1Z"
+RIGHT = "M1,0L-.9,-1V1Z"
 PENTAGON = "M0,-1L.95,-.31L.59,.81H-.59L-.95,-.31Z"
 PLUS = "M-.35,-1H.35V-.35H1V.35H.35V1H-.35V.35H-1V-.35H-.35Z"
 CROSS = "M-1,-.5L-.5,-1L0,-.5L.5,-1L1,-.5L.5,0L1,.5L.5,1L0,.5L-.5,1L-1,.5L-.5,0Z"
@@ -46,6 +47,7 @@ METHODS = {
     "closed_form": Look("closed form", "#1b1f24", "#f0f3f6", "*", STAR),
     "contact_step": Look("contact step", "#3d6b21", "#a5d66f", "p", PENTAGON),
     "leapfrog": Look("leapfrog", "#0b69c7", "#58a6ff", "o", CIRCLE),
+    "rattle": Look("RATTLE", "#0f8a8a", "#5fd4d0", ">", RIGHT),
     "yoshida4": Look("Yoshida 4", "#2f9fc4", "#8bd5f0", "s", SQUARE),
     "yoshida6": Look("Yoshida 6", "#5a3fc0", "#b3a1ff", "D", DIAMOND),
     "rk4": Look("RK4", "#12805c", "#4cc38a", "^", UP),

@@ -49,15 +49,17 @@ pub struct ForceBuffers {
 /// For each body the facet of its silhouette that the air is let see; none where its width has no kinks.
 pub type Facets = Vec<Option<Facet>>;
 
-/// The forces on a run of bodies, as the methods see them. All slices have the same length, but for
-/// `steady`, which is empty where there are no steady forces.
+/// The forces on bodies that move together, as the methods see them. Slices have the same length, but for
+/// `steady`, which is empty where there are no steady forces, and `infos` where there are `members`.
 pub struct Forces<'a> {
     /// Which body stands where, for fields that act on certain bodies.
     pub handles: &'a HandleMap<Body>,
     /// Masses of the bodies.
     pub masses: &'a [Mass],
-    /// Their cold data: silhouettes, damping.
+    /// Cold data: silhouettes, damping.
     pub infos: &'a [Info],
+    /// Place of each body in `infos`; empty: the same as here.
+    pub members: &'a [u32],
     /// Forces that stay the same over the span that is stepped, gravity apart.
     pub steady: &'a [Wrench],
     /// Gravity (m/s²).
@@ -80,6 +82,16 @@ pub struct Forces<'a> {
 }
 
 impl Forces<'_> {
+    /// Cold data of body `i`.
+    #[must_use]
+    pub fn info(&self, i: usize) -> &Info {
+        &self.infos[self.place(i)]
+    }
+
+    fn place(&self, i: usize) -> usize {
+        self.members.get(i).map_or(i, |place| *place as usize)
+    }
+
     /// Whether a force may change with the velocity (resistance apart, which the methods treat by
     /// itself).
     #[must_use]
@@ -131,7 +143,7 @@ impl Forces<'_> {
         self.accelerate_without_resistance(time, poses, twists, out)?;
         let mut dissipated = 0.0;
         for i in 0..if self.resistance { poses.len() } else { 0 } {
-            let (info, state) = (&self.infos[i], (&poses[i], &twists[i]));
+            let (info, state) = (&self.infos[self.place(i)], (&poses[i], &twists[i]));
             let facet = self.facets.get(i).and_then(Option::as_ref);
             self.kinked |= facet.is_some_and(|facet| !drag::shows(info, self.air, state, facet));
             if let Some(resisting) = drag::resistance(&self.masses[i], info, self.air, state, facet)
@@ -148,18 +160,17 @@ impl Forces<'_> {
     /// The facets that the bodies show to the air in a state; empty where nothing resists.
     #[must_use]
     pub fn facets_of(&self, poses: &[Pose], twists: &[Twist]) -> Facets {
-        let shown = if self.resistance { self.infos } else { &[] };
-        let states = poses.iter().zip(twists);
-        shown.iter().zip(states).map(|(info, state)| drag::facet(info, self.air, state)).collect()
+        let shown = if self.resistance { poses.len() } else { 0 };
+        let states = poses.iter().zip(twists).enumerate().take(shown);
+        states.map(|(i, state)| drag::facet(self.info(i), self.air, state)).collect()
     }
 
     /// Whether the bodies show, in a state, the facets that are let seen.
     #[must_use]
     pub fn shows_facets(&self, poses: &[Pose], twists: &[Twist]) -> bool {
         let states = poses.iter().zip(twists);
-        let mut bodies = self.facets.iter().zip(self.infos).zip(states);
-        bodies.all(|((facet, info), state)| {
-            facet.as_ref().is_none_or(|facet| drag::shows(info, self.air, state, facet))
+        self.facets.iter().zip(states).enumerate().all(|(i, (facet, state))| {
+            facet.as_ref().is_none_or(|facet| drag::shows(self.info(i), self.air, state, facet))
         })
     }
 
@@ -182,7 +193,7 @@ impl Forces<'_> {
     pub fn drift(&self, h: Real, poses: &mut [Pose], twists: &mut [Twist]) -> Result<Real> {
         let mut dissipated = 0.0;
         for (i, (pose, twist)) in poses.iter_mut().zip(twists).enumerate() {
-            let (mass, info) = (&self.masses[i], &self.infos[i]);
+            let (mass, info) = (&self.masses[i], self.info(i));
             if drag::resists(info, self.air) && mass.is_free() {
                 let before = mass.kinetic_energy(twist);
                 drag::drift(mass, info, self.air, (h, pose, twist))?;

@@ -4,12 +4,12 @@
 //! sections II.5 (method, error estimate eq. 10.17) and II.6 (dense output).
 
 use crate::error::{Error, Result};
-use crate::forces::{BoxError, Facets, Forces};
+use crate::forces::{BoxError, Facets};
 use crate::math::{Pose, Real, Twist, powf};
 use crate::methods::dop853_dense::{Dense, first_kink};
 use crate::methods::dop853_table::{A, C, E3, E5};
 use crate::methods::first_order::{self, Columns};
-use crate::methods::{Facts, Method, Motion, Scratch, Span};
+use crate::methods::{Facts, Method, Motion, Scratch, Span, System};
 
 /// Slopes of a step, its end included.
 pub const STAGES: usize = 13;
@@ -25,7 +25,7 @@ static FACTS: Facts = Facts {
     reversible: false,
     exact_for_constant_force: true,
     adaptive: true,
-    joints: false,
+    joints: true,
     contacts: false,
     about: "Dormand and Prince's method of order 8; with a tolerance it chooses its own step",
 };
@@ -37,16 +37,18 @@ impl Method for Dop853 {
 
     fn run(
         &self,
-        forces: &mut Forces<'_>,
+        system: &mut System<'_>,
         motion: &mut Motion<'_>,
         span: Span,
         scratch: &mut Scratch,
     ) -> Result<()> {
         let y = &mut scratch.flat;
         y.load(motion, DENSE_STAGES);
+        y.settle_state(system, motion);
         for k in 0..span.substeps {
-            y.slope_of_state(0, forces, span.time(k))?;
-            stages(y, forces, span.time(k), span.h())?;
+            y.slope_of_state(0, system, span.time(k))?;
+            stages(y, system, span.time(k), span.h())?;
+            y.settle_stage(system, motion);
             std::mem::swap(&mut y.state, &mut y.stage);
         }
         y.store(motion);
@@ -55,10 +57,10 @@ impl Method for Dop853 {
 }
 
 /// Slopes 1 to 11 and, in `y.stage`, the state at the end of a step whose slope 0 is there.
-fn stages(y: &mut Columns, forces: &mut Forces<'_>, time: Real, h: Real) -> Result<()> {
+fn stages(y: &mut Columns, system: &mut System<'_>, time: Real, h: Real) -> Result<()> {
     for j in 1..12 {
         y.combine(h, A[j]);
-        y.slope_of_stage(j, forces, time + C[j] * h)?;
+        y.slope_of_stage(j, system, time + C[j] * h)?;
     }
     y.combine(h, A[12]);
     Ok(())
@@ -154,15 +156,17 @@ impl<'a> Adaptive<'a> {
     /// [`Error::Interrupted`] with what `watch` said.
     pub fn run(
         mut self,
-        forces: &mut Forces<'_>,
+        system: &mut System<'_>,
         motion: &mut Motion<'_>,
         scratch: &mut Scratch,
         (sink, watch): (&mut Sink<'_>, &mut Watch<'_>),
     ) -> Result<Progress> {
         let y = &mut scratch.flat;
         y.load(motion, DENSE_STAGES);
-        let start = Turn { facets: forces.facets_of(motion.poses, motion.twists), whole_step: 0.0 };
-        self.turn(y, forces, self.span.start, start)?;
+        y.settle_state(system, motion);
+        let start =
+            Turn { facets: system.forces.facets_of(motion.poses, motion.twists), whole_step: 0.0 };
+        self.turn(y, system, self.span.start, start)?;
         let mut passed = 0.0;
         let mut h = self.first_step(y);
         let mut turn: Option<Turn> = None;
@@ -174,8 +178,8 @@ impl<'a> Adaptive<'a> {
             h = if last { rest } else { h.min(rest) };
             let time = self.span.start + passed;
             self.refuse_tiny(h, passed)?;
-            forces.kinked = false;
-            stages(y, forces, time, h)?;
+            system.forces.kinked = false;
+            stages(y, system, time, h)?;
             let error = self.error(y, h);
             if !error.is_finite() || error > 1.0 {
                 self.progress.rejected += 1;
@@ -184,29 +188,33 @@ impl<'a> Adaptive<'a> {
                 continue;
             }
             let end = if last { self.span.end } else { time + h };
-            y.slope_of_stage(12, forces, end)?;
-            if forces.kinked
+            let booked = motion.ledger.correction_work;
+            // Before its slope is taken, so that the next step and dense output go on from there.
+            y.settle_stage(system, motion);
+            y.slope_of_stage(12, system, end)?;
+            if system.forces.kinked
                 && turn.is_none()
                 && self.turns_in_place < TURNS_IN_PLACE
-                && let Some((part, facets)) = first_kink(y, forces, (time, h))?
+                && let Some((part, facets)) = first_kink(y, system, (time, h))?
             {
+                motion.ledger.correction_work = booked;
                 let kink = Turn { facets, whole_step: h };
                 if part > IN_PLACE {
                     turn = Some(kink);
                     h *= part;
                 } else {
                     self.turns_in_place += 1;
-                    self.turn(y, forces, time, kink)?;
+                    self.turn(y, system, time, kink)?;
                 }
                 continue;
             }
-            self.sample(y, forces, (passed, h, last), sink)?;
+            self.sample(y, system, (passed, h, last), sink)?;
             self.accept(y, h, error);
             passed = if last { self.span.duration } else { passed + h };
             h = self.next_step(h, error);
             if let Some(kink) = turn.take() {
                 h = kink.whole_step;
-                self.turn(y, forces, end, kink)?;
+                self.turn(y, system, end, kink)?;
             }
         }
         y.store(motion);
@@ -222,9 +230,9 @@ impl<'a> Adaptive<'a> {
     }
 
     /// Lets the air see the bodies' new facets, from the state on.
-    fn turn(&self, y: &mut Columns, forces: &mut Forces<'_>, time: Real, turn: Turn) -> Result<()> {
-        forces.facets = turn.facets;
-        y.slope_of_state(0, forces, time)
+    fn turn(&self, y: &mut Columns, system: &mut System<'_>, time: Real, turn: Turn) -> Result<()> {
+        system.forces.facets = turn.facets;
+        y.slope_of_state(0, system, time)
     }
 
     /// A step over which velocities change little: tol^(1/8)·min |v|/|a|.
@@ -291,7 +299,7 @@ impl<'a> Adaptive<'a> {
     fn sample(
         &mut self,
         y: &mut Columns,
-        forces: &mut Forces<'_>,
+        system: &mut System<'_>,
         (passed, h, last): (Real, Real, bool),
         sink: &mut Sink<'_>,
     ) -> Result<()> {
@@ -300,7 +308,7 @@ impl<'a> Adaptive<'a> {
         while let Some(&at) = self.control.samples.get(self.next_sample).filter(|at| **at <= until)
         {
             if dense.is_none() {
-                dense = Some(Dense::new(y, forces, self.span.start + passed, h)?);
+                dense = Some(Dense::new(y, system, self.span.start + passed, h)?);
             }
             let state = dense.as_ref().map_or_else(Vec::new, |d| d.at((at - passed) / h));
             let (poses, twists) = first_order::split(&state);

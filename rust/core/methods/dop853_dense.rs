@@ -1,8 +1,9 @@
 //! Dense output of DOP853, and the kinks of a force that it finds.
 
 use crate::error::Result;
-use crate::forces::{Facets, Forces};
+use crate::forces::Facets;
 use crate::math::Real;
+use crate::methods::System;
 use crate::methods::dop853::{DENSE_STAGES, STAGES};
 use crate::methods::dop853_table::{A, C, D};
 use crate::methods::first_order::{self, Columns};
@@ -15,11 +16,11 @@ pub struct Dense {
 
 impl Dense {
     /// Needs slopes 0 to 12, the state and, in `y.stage`, the end of the step, which stays there.
-    pub fn new(y: &mut Columns, forces: &mut Forces<'_>, time: Real, h: Real) -> Result<Self> {
+    pub fn new(y: &mut Columns, system: &mut System<'_>, time: Real, h: Real) -> Result<Self> {
         let end = y.stage.clone();
         for j in STAGES..DENSE_STAGES {
             y.combine(h, A[j]);
-            y.slope_of_stage(j, forces, time + C[j] * h)?;
+            y.slope_of_stage(j, system, time + C[j] * h)?;
         }
         y.stage.copy_from_slice(&end);
         let (start, first, last) = (&y.state, &y.slopes[0], &y.slopes[12]);
@@ -53,16 +54,16 @@ impl Dense {
 /// and the facets from there on. None where they stay the same.
 pub fn first_kink(
     y: &mut Columns,
-    forces: &mut Forces<'_>,
+    system: &mut System<'_>,
     (time, h): (Real, Real),
 ) -> Result<Option<(Real, Facets)>> {
     const LOOKS: u32 = 16;
     const HALVINGS: u32 = 40;
-    let dense = Dense::new(y, forces, time, h)?;
+    let dense = Dense::new(y, system, time, h)?;
     let shows = |x: Real| {
         let state = dense.at(x);
         let (poses, twists) = first_order::split(&state);
-        forces.shows_facets(poses, twists)
+        system.forces.shows_facets(poses, twists)
     };
     let look = |k: u32| Real::from(k) / Real::from(LOOKS);
     let Some(k) = (1..=LOOKS).find(|&k| !shows(look(k))) else { return Ok(None) };
@@ -73,5 +74,5 @@ pub fn first_kink(
     }
     let state = dense.at(after);
     let (poses, twists) = first_order::split(&state);
-    Ok(Some((after, forces.facets_of(poses, twists))))
+    Ok(Some((after, system.forces.facets_of(poses, twists))))
 }

@@ -3,9 +3,9 @@
 //! are quadratures of the same order as the motion.
 
 use crate::error::Result;
-use crate::forces::{Forces, Ledger};
+use crate::forces::Ledger;
 use crate::math::{Pose, Real, Twist};
-use crate::methods::Motion;
+use crate::methods::{Motion, System};
 
 /// Numbers of one body in each of the two halves of y.
 const BODY: usize = 3;
@@ -51,14 +51,24 @@ impl Columns {
         }
     }
 
+    /// Puts the bodies of the state where joints hold; what that takes goes to the ledger of the motion.
+    pub fn settle_state(&mut self, system: &mut System<'_>, motion: &mut Motion<'_>) {
+        settle(system, &mut self.state, motion);
+    }
+
+    /// The same for the stage.
+    pub fn settle_stage(&mut self, system: &mut System<'_>, motion: &mut Motion<'_>) {
+        settle(system, &mut self.stage, motion);
+    }
+
     /// slopes[j] = y'(time, stage).
-    pub fn slope_of_stage(&mut self, j: usize, forces: &mut Forces<'_>, time: Real) -> Result<()> {
-        slope(forces, time, &self.stage, &mut self.slopes[j])
+    pub fn slope_of_stage(&mut self, j: usize, system: &mut System<'_>, time: Real) -> Result<()> {
+        slope(system, time, &self.stage, &mut self.slopes[j])
     }
 
     /// slopes[j] = y'(time, state).
-    pub fn slope_of_state(&mut self, j: usize, forces: &mut Forces<'_>, time: Real) -> Result<()> {
-        slope(forces, time, &self.state, &mut self.slopes[j])
+    pub fn slope_of_state(&mut self, j: usize, system: &mut System<'_>, time: Real) -> Result<()> {
+        slope(system, time, &self.state, &mut self.slopes[j])
     }
 }
 
@@ -81,12 +91,22 @@ pub fn write(y: &[Real], motion: &mut Motion<'_>) {
     *motion.ledger = Ledger { work: y[y.len() - 2], dissipated: y[y.len() - 1], ..*motion.ledger };
 }
 
-fn slope(forces: &mut Forces<'_>, time: Real, y: &[Real], dy: &mut [Real]) -> Result<()> {
+fn settle(system: &mut System<'_>, y: &mut [Real], motion: &mut Motion<'_>) {
+    let n = BODY * bodies(y);
+    let (poses, rest) = y.split_at_mut(n);
+    let (twists, ledger) = rest.split_at_mut(n);
+    let taken = system.settle(bytemuck::cast_slice_mut(poses), bytemuck::cast_slice_mut(twists));
+    ledger[0] += taken.work;
+    ledger[1] += taken.dissipated;
+    motion.ledger.correction_work += taken.correction_work;
+}
+
+fn slope(system: &mut System<'_>, time: Real, y: &[Real], dy: &mut [Real]) -> Result<()> {
     let (poses, twists) = split(y);
     let n = BODY * poses.len();
     dy[..n].copy_from_slice(&y[n..2 * n]);
     let out: &mut [Twist] = bytemuck::cast_slice_mut(&mut dy[n..2 * n]);
-    let power = forces.accelerate(time, poses, twists, out)?;
+    let power = system.accelerate(time, poses, twists, out)?;
     dy[2 * n] = power.work;
     dy[2 * n + 1] = power.dissipated;
     Ok(())

@@ -12,7 +12,7 @@
 use crate::error::{Error, Result};
 use crate::forces::Forces;
 use crate::math::{Real, Twist};
-use crate::methods::{Facts, Method, Motion, Scratch, Span};
+use crate::methods::{Facts, Method, Motion, Scratch, Span, System};
 
 pub struct Leapfrog;
 
@@ -35,11 +35,12 @@ impl Method for Leapfrog {
 
     fn run(
         &self,
-        forces: &mut Forces<'_>,
+        system: &mut System<'_>,
         motion: &mut Motion<'_>,
         span: Span,
         scratch: &mut Scratch,
     ) -> Result<()> {
+        let forces = &mut system.forces;
         prepare(forces, motion, span.start, scratch)?;
         for k in 0..span.substeps {
             step(forces, motion, (span.time(k), span.h()), scratch)?;
@@ -88,7 +89,7 @@ pub fn step(
     drift(forces, motion, h / 2.0)
 }
 
-fn drift(forces: &Forces<'_>, motion: &mut Motion<'_>, h: Real) -> Result<()> {
+pub(super) fn drift(forces: &Forces<'_>, motion: &mut Motion<'_>, h: Real) -> Result<()> {
     if !forces.resistance {
         super::drift(motion.poses, motion.twists, h);
         return Ok(());
@@ -98,7 +99,7 @@ fn drift(forces: &Forces<'_>, motion: &mut Motion<'_>, h: Real) -> Result<()> {
 }
 
 /// v += a·h. The work of a force over a kick is exactly its mean power times h.
-fn kick(forces: &Forces<'_>, motion: &mut Motion<'_>, accelerations: &[Twist], h: Real) {
+pub(super) fn kick(forces: &Forces<'_>, motion: &mut Motion<'_>, accelerations: &[Twist], h: Real) {
     if !forces.works() {
         return super::kick(motion.twists, accelerations, h);
     }
@@ -109,7 +110,7 @@ fn kick(forces: &Forces<'_>, motion: &mut Motion<'_>, accelerations: &[Twist], h
 
 /// v₁ = v₀ + a(t, x, ½(v₀ + v₁))·h where forces depend on velocities, solved by iteration to the last
 /// digits, so that the step stays reversible and of second order.
-fn implicit_kick(
+pub(super) fn implicit_kick(
     forces: &mut Forces<'_>,
     motion: &mut Motion<'_>,
     (time, h): (Real, Real),

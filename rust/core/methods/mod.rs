@@ -8,16 +8,20 @@ mod dop853_dense;
 mod dop853_table;
 mod explicit_euler;
 mod first_order;
+pub mod joined;
 mod leapfrog;
+mod rattle;
 mod rk4;
 mod semi_implicit_euler;
+mod system;
 mod trapezoid;
 mod yoshida;
 
 pub use dop853::{Adaptive, Control, Progress, Sink, Watch};
+pub use system::System;
 
 use crate::error::{Error, Result};
-use crate::forces::{Forces, Ledger};
+use crate::forces::Ledger;
 use crate::math::{Pose, Real, Twist};
 
 /// What holds of a method.
@@ -35,7 +39,7 @@ pub struct Facts {
     pub exact_for_constant_force: bool,
     /// Chooses its own step to a tolerance.
     pub adaptive: bool,
-    /// Treats joints.
+    /// Moves what smooth joints tie by itself, where nothing touches; what others leave, the contact step moves.
     pub joints: bool,
     /// Treats contacts.
     pub contacts: bool,
@@ -88,6 +92,10 @@ pub struct Scratch {
     /// Velocities before a kick, and in the middle of it.
     before: Vec<Twist>,
     middle: Vec<Twist>,
+    /// Places before a step; velocities after a kick; what impulses of joints give them.
+    start: Vec<Pose>,
+    kicked: Vec<Twist>,
+    led: Vec<Twist>,
     /// Flat columns of the methods of first order systems.
     flat: first_order::Columns,
 }
@@ -103,7 +111,7 @@ pub trait Method: Sync {
     /// Those of the user's fields, and steps that the method cannot take.
     fn run(
         &self,
-        forces: &mut Forces<'_>,
+        system: &mut System<'_>,
         motion: &mut Motion<'_>,
         span: Span,
         scratch: &mut Scratch,
@@ -119,6 +127,7 @@ impl std::fmt::Debug for dyn Method {
 /// Every method, the default first.
 pub static REGISTRY: &[&dyn Method] = &[
     &leapfrog::Leapfrog,
+    &rattle::Rattle,
     &yoshida::YOSHIDA4,
     &yoshida::YOSHIDA6,
     &rk4::Rk4,
@@ -143,7 +152,7 @@ pub fn method(name: &str) -> Result<&'static dyn Method> {
 /// Steps by a rule that asks for the accelerations once, at the start of each step: Euler's rules differ
 /// only in the order of kick and drift.
 fn each_step(
-    forces: &mut Forces<'_>,
+    system: &mut System<'_>,
     motion: &mut Motion<'_>,
     span: Span,
     scratch: &mut Scratch,
@@ -151,10 +160,12 @@ fn each_step(
 ) -> Result<()> {
     let accelerations = &mut scratch.accelerations;
     accelerations.resize(motion.poses.len(), Twist::ZERO);
+    system.settle_motion(motion);
     for k in 0..span.substeps {
-        let power = forces.accelerate(span.time(k), motion.poses, motion.twists, accelerations)?;
+        let power = system.accelerate(span.time(k), motion.poses, motion.twists, accelerations)?;
         motion.ledger.book(power, span.h());
         rule(motion, accelerations, span.h());
+        system.settle_motion(motion);
     }
     Ok(())
 }

@@ -2,8 +2,7 @@
 //! What most game engines do: bounded energy, but a thrown ball is off by ½g·h·t.
 
 use crate::error::Result;
-use crate::forces::Forces;
-use crate::methods::{Facts, Method, Motion, Scratch, Span, drift, each_step, kick};
+use crate::methods::{Facts, Method, Motion, Scratch, Span, System, drift, each_step, kick};
 
 pub struct SemiImplicitEuler;
 
@@ -14,7 +13,7 @@ static FACTS: Facts = Facts {
     reversible: false,
     exact_for_constant_force: false,
     adaptive: false,
-    joints: false,
+    joints: true,
     contacts: false,
     about: "v += a·h, then x += v·h with the new v: what most game engines do",
 };
@@ -26,12 +25,12 @@ impl Method for SemiImplicitEuler {
 
     fn run(
         &self,
-        forces: &mut Forces<'_>,
+        system: &mut System<'_>,
         motion: &mut Motion<'_>,
         span: Span,
         scratch: &mut Scratch,
     ) -> Result<()> {
-        each_step(forces, motion, span, scratch, |motion, a, h| {
+        each_step(system, motion, span, scratch, |motion, a, h| {
             kick(motion.twists, a, h);
             drift(motion.poses, motion.twists, h);
         })

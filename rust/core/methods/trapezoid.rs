@@ -2,8 +2,7 @@
 //! force, first order for any other, because the velocity is still Euler's.
 
 use crate::error::Result;
-use crate::forces::Forces;
-use crate::methods::{Facts, Method, Motion, Scratch, Span, drift, each_step, kick};
+use crate::methods::{Facts, Method, Motion, Scratch, Span, System, drift, each_step, kick};
 
 pub struct Trapezoid;
 
@@ -14,7 +13,7 @@ static FACTS: Facts = Facts {
     reversible: false,
     exact_for_constant_force: true,
     adaptive: false,
-    joints: false,
+    joints: true,
     contacts: false,
     about: "v₁ = v₀ + a·h, then x += ½(v₀ + v₁)·h; for teaching",
 };
@@ -26,12 +25,12 @@ impl Method for Trapezoid {
 
     fn run(
         &self,
-        forces: &mut Forces<'_>,
+        system: &mut System<'_>,
         motion: &mut Motion<'_>,
         span: Span,
         scratch: &mut Scratch,
     ) -> Result<()> {
-        each_step(forces, motion, span, scratch, |motion, a, h| {
+        each_step(system, motion, span, scratch, |motion, a, h| {
             drift(motion.poses, motion.twists, h / 2.0);
             kick(motion.twists, a, h);
             drift(motion.poses, motion.twists, h / 2.0);

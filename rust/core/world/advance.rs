@@ -63,8 +63,7 @@ impl World {
                 ));
             }
         }
-        let plan = self.planned();
-        if !plan.colliding.is_empty() || plan.joints > 0 {
+        if !self.is_smooth() {
             return self.advance_colliding(duration, tolerance, times, watch);
         }
         self.attempt(|world| {
@@ -75,11 +74,23 @@ impl World {
             world.each_span(duration, |world, span| {
                 world.advance_to_tolerance(span, tolerance, (start, &mut trajectory), watch)
             })?;
+            world.settle_joints()?;
             world.finish(duration)?;
             trajectory.in_frames(&world.state.bodies);
             trajectory.shift(start);
             Ok(trajectory)
         })
+    }
+
+    /// Whether nothing can meet and no joint has a bound. Finds the groups that joints tie.
+    fn is_smooth(&mut self) -> bool {
+        let plan = self.planned();
+        let (apart, joints) = (plan.colliding.is_empty(), plan.joints);
+        if apart && joints > 0 {
+            self.scratch.contacts.methods = true;
+            self.find_islands();
+        }
+        apart && (joints == 0 || self.scratch.contacts.is_idle())
     }
 
     pub(super) fn advance_to_tolerance(
@@ -94,13 +105,19 @@ impl World {
         if !samples.is_empty() {
             self.sample_closed(passed, samples.clone(), trajectory);
         }
-        self.advance_closed(span.duration);
-        let plan = self.plan.take().unwrap_or_default();
         let times: Vec<Real> =
             trajectory.times[samples.clone()].iter().map(|t| t - passed).collect();
-        let mut worst: Real = 0.0;
+        // First what joints tie, while bodies whose motion is given still stand where the step begins.
+        let asked = (tolerance, &*times);
+        let sampled = (samples.start, &mut *trajectory);
+        let mut worst = self.advance_joined_to_tolerance(span, asked, sampled, watch)?;
+        self.advance_closed(span.duration);
+        let plan = self.plan.take().unwrap_or_default();
         for run in plan.runs() {
             let first = run.start;
+            if self.scratch.contacts.moves(first) {
+                continue;
+            }
             let mut sink = |k: usize, poses: &[Pose], twists: &[Twist]| {
                 trajectory.write(samples.start + k, first, poses, twists);
             };
@@ -125,16 +142,14 @@ impl World {
         (tolerance, samples): (Real, &[Real]),
         (sink, watch): (&mut Sink<'_>, &mut Watch<'_>),
     ) -> Result<Progress> {
-        let (mut forces, mut motion, scratch) = self.split(run, resistance);
-        let infos = forces.infos;
+        let (mut system, mut motion, scratch) = self.split(run, resistance);
+        let infos = system.forces.infos;
         let control = Control { tolerance, sizes: &|i| infos[i].size, samples };
         let adaptive = Adaptive::new(&control, &motion, span);
-        let progress = adaptive.run(&mut forces, &mut motion, scratch, (sink, watch))?;
-        let evaluations = forces.evaluations;
+        let progress = adaptive.run(&mut system, &mut motion, scratch, (sink, watch))?;
+        let evaluations = system.forces.evaluations;
         self.report.evaluations += evaluations;
-        self.report.steps += progress.steps;
-        self.report.rejected += progress.rejected;
-        self.report.smallest_step = self.report.smallest_step.min(progress.smallest);
+        self.report.book_progress(&progress);
         Ok(progress)
     }
 

@@ -65,11 +65,12 @@ impl World {
         })
     }
 
-    /// One step in which nothing comes near anything else, by the methods of free motion; false, and nothing done, if
+    /// One step in which nothing comes near anything else, by the methods of free motion and of joints; false, and nothing done, if
     /// something may.
     fn step_apart(&mut self, dt: Real, tolerance: Real, watch: &mut Watch<'_>) -> Result<bool> {
         let before = self.state.clone();
         self.detect(dt, 0.0)?;
+        self.scratch.contacts.methods = true;
         self.find_islands();
         if self.scratch.contacts.is_idle() {
             let (start, mut none) = (self.time(), Trajectory::new(Vec::new(), &self.state.bodies));
@@ -90,6 +91,7 @@ impl World {
         let substeps = self.state.settings.substeps;
         let hits = self.events.hit.len();
         let before = self.state.clone();
+        self.scratch.contacts.methods = false;
         for _ in 0..MOST_TRIES {
             self.collide_and_advance(dt)?;
             let coarse = self.go_back(&before);

@@ -149,6 +149,7 @@ struct WorldScratch {
     forces: ForceBuffers,
     methods: Scratch,
     contacts: contacts::ContactScratch,
+    joined: joints::JoinedScratch,
 }
 
 impl Default for World {

@@ -96,12 +96,20 @@ fn count(n: usize) -> String {
     format!("{n} {}", if n == 1 { "body" } else { "bodies" })
 }
 
-fn explain_joints(plan: &Plan, line: &mut dyn FnMut(&str, &str)) {
-    if plan.joints > 0 {
-        let joints = if plan.joints == 1 { "joint" } else { "joints" };
-        let what = "what they tie moves together, by the contact step";
-        line("advance", &format!("{} {joints}: {what}", plan.joints));
+/// How joints move what they tie; `by` is what the world's method does with it, if it does.
+fn explain_joints(plan: &Plan, by: Option<&str>, line: &mut dyn FnMut(&str, &str)) {
+    if plan.joints == 0 {
+        return;
     }
+    let joints = if plan.joints == 1 { "joint" } else { "joints" };
+    let what = match by {
+        None => "what they tie moves together, by the contact step".into(),
+        Some(name) => format!(
+            "what they tie moves together, by {name}; where something touches or a joint has a bound (limits, motors, largest \
+             forces, breaking), by the contact step"
+        ),
+    };
+    line("advance", &format!("{} {joints}: {what}", plan.joints));
 }
 
 impl World {
@@ -110,6 +118,7 @@ impl World {
         plan.get_or_insert_with(|| {
             // Groups of bodies that may be gone.
             scratch.contacts.forget();
+            scratch.joined.forget();
             state.contacts.apart = kept_apart(state);
             Plan::new(state, fields.len())
         })
@@ -151,7 +160,8 @@ impl World {
                 "what touches moves together, by the contact step instead of the below",
             );
         }
-        explain_joints(&plan, &mut line);
+        let facts = self.method.facts();
+        explain_joints(&plan, facts.joints.then_some(facts.name), &mut line);
         for (bodies, how) in [(&plan.closed, ""), (&plan.damped, " and damping")] {
             if !bodies.is_empty() {
                 let how = format!("closed form, exact at any step (constant forces{how})");

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::body::Bodies;
 use crate::math::{Pose, Real, Twist};
+use crate::methods::Progress;
 
 /// Time that one stage took.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -29,6 +30,8 @@ pub struct StepReport {
     pub evaluations: u64,
     /// Sweeps over the rows of contacts, summed over islands and substeps.
     pub sweeps: u64,
+    /// Systems of the rows of joints solved by the methods, summed over islands.
+    pub solves: u64,
     /// Impacts resolved.
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows of contacts still lack.
@@ -49,12 +52,22 @@ impl Default for StepReport {
             rejected: 0,
             evaluations: 0,
             sweeps: 0,
+            solves: 0,
             impacts: 0,
             residual: 0.0,
             smallest_step: Real::INFINITY,
             estimate: None,
             stages: Vec::new(),
         }
+    }
+}
+
+impl StepReport {
+    /// Books what a run to a tolerance took.
+    pub(super) fn book_progress(&mut self, progress: &Progress) {
+        self.steps += progress.steps;
+        self.rejected += progress.rejected;
+        self.smallest_step = self.smallest_step.min(progress.smallest);
     }
 }
 

@@ -8,7 +8,7 @@ use crate::error::{Error, Result, check};
 use crate::forces::Forces;
 use crate::math::{Real, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
-use crate::methods::{Motion, Span, Watch};
+use crate::methods::{Motion, Span, System, Watch};
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// How often a step is taken because a body was thrown too far or struck a sleeping one; the last time with what it got.
@@ -57,6 +57,7 @@ impl World {
             Ok(())
         })?;
         self.scratch.contacts.start = self.state.clock.now;
+        self.scratch.contacts.methods = self.method.facts().joints;
         if self.plan.as_ref().is_some_and(|plan| plan.colliding.is_empty()) {
             self.join()?;
             self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
@@ -241,6 +242,7 @@ impl World {
     fn advance_span(&mut self, span: Span) -> Result<()> {
         // First what touches, while bodies whose motion is given still stand where the step begins.
         self.advance_contacts(span)?;
+        self.advance_joined(span)?;
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
         let result = plan.runs().try_for_each(|run| {
@@ -277,9 +279,9 @@ impl World {
     /// Moves a run of bodies by the world's method.
     fn advance_run(&mut self, run: Range<usize>, span: Span, resistance: bool) -> Result<()> {
         let method = self.method;
-        let (mut forces, mut motion, scratch) = self.split(run, resistance);
-        method.run(&mut forces, &mut motion, span, scratch)?;
-        let evaluations = forces.evaluations;
+        let (mut system, mut motion, scratch) = self.split(run, resistance);
+        method.run(&mut system, &mut motion, span, scratch)?;
+        let evaluations = system.forces.evaluations;
         self.report.evaluations += evaluations;
         self.report.steps += u64::from(span.substeps);
         self.report.smallest_step = self.report.smallest_step.min(span.h());
@@ -291,7 +293,7 @@ impl World {
         &mut self,
         run: Range<usize>,
         resistance: bool,
-    ) -> (Forces<'_>, Motion<'_>, &mut crate::methods::Scratch) {
+    ) -> (System<'_>, Motion<'_>, &mut crate::methods::Scratch) {
         let Self { state, scratch, fields, .. } = self;
         let State { bodies, settings, ledger, .. } = state;
         let Bodies { map, poses, twists, masses, infos, .. } = bodies;
@@ -300,6 +302,7 @@ impl World {
             handles: map,
             masses: &masses[run.clone()],
             infos: &infos[run.clone()],
+            members: &[],
             steady: &scratch.steady[steady],
             gravity: settings.gravity,
             air: settings.air,
@@ -311,7 +314,7 @@ impl World {
             evaluations: 0,
         };
         let motion = Motion { poses: &mut poses[run.clone()], twists: &mut twists[run], ledger };
-        (forces, motion, &mut scratch.methods)
+        (System { forces, joints: None }, motion, &mut scratch.methods)
     }
 
     /// Checks that the motion is finite, and forgets the forces that were applied for this step.

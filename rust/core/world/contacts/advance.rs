@@ -17,7 +17,7 @@ use crate::math::{Real, Rot, Twist, Vec2, Wrench, perp};
 use crate::methods::Span;
 use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Watched};
 use crate::solvers::links::LinkSolver;
-use crate::world::joints::{index_of, keep, tie, tied};
+use crate::world::joints::{index_of, is_smooth, keep, tie, tied};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -30,13 +30,17 @@ pub(in crate::world) struct ContactScratch {
     solid: Vec<u32>,
     /// Joints of the others.
     joined: Vec<u32>,
+    /// Whether groups of smooth joints in which nothing touches are left to a method.
+    pub methods: bool,
+    /// The groups that are left to it; none told of: none.
+    left: Vec<bool>,
     /// Solvers of the groups with joints, by the first of those: they know its graph.
     solvers: FxHashMap<u32, LinkSolver>,
     pub(super) group: Group,
     /// Slot of each body in the group at work; valid where the mark is the group's.
     slots: Vec<(u32, u32)>,
     mark: u32,
-    /// Bodies that the contact step has moved in this span.
+    /// Bodies that are moved in groups.
     moved: Vec<bool>,
     /// What the hooks said of each patch; empty where there are none.
     pub answers: Vec<Answer>,
@@ -49,7 +53,7 @@ pub(in crate::world) struct ContactScratch {
 }
 
 impl ContactScratch {
-    /// Whether the contact step moves a body in this span.
+    /// Whether a body is moved in a group.
     pub fn moves(&self, body: usize) -> bool {
         self.moved.get(body).copied().unwrap_or(false)
     }
@@ -64,9 +68,27 @@ impl ContactScratch {
         self.islands.group(k).iter().map(|link| self.links[*link as usize])
     }
 
-    /// Whether nothing touches or may touch in the step.
+    /// Joints of a group.
+    pub fn joints_of(&self, k: usize) -> impl Iterator<Item = u32> {
+        let first = self.solid.len();
+        self.islands.group(k).iter().filter_map(move |link| {
+            (*link as usize).checked_sub(first).map(|joint| self.joined[joint])
+        })
+    }
+
+    /// Whether a group is left to a method.
+    pub fn leaves(&self, k: usize) -> bool {
+        self.left.get(k).copied().unwrap_or(false)
+    }
+
+    /// Whether any group is.
+    pub fn leaves_any(&self) -> bool {
+        self.left.contains(&true)
+    }
+
+    /// Whether there is nothing for the contact step to do.
     pub fn is_idle(&self) -> bool {
-        self.islands.is_empty()
+        (0..self.groups()).all(|k| self.leaves(k))
     }
 
     /// Forgets the groups, where there is nothing to look for.
@@ -131,6 +153,23 @@ impl World {
         } else {
             islands.split(masses.len(), links, gives_way);
         }
+        self.leave_to_method();
+    }
+
+    /// Chooses the groups that are left to a method: those of smooth joints in which nothing touches.
+    fn leave_to_method(&mut self) {
+        let State { bodies, joints, .. } = &self.state;
+        let ContactScratch { islands, solid, joined, methods, left, .. } =
+            &mut self.scratch.contacts;
+        left.clear();
+        if !*methods || joined.is_empty() {
+            return;
+        }
+        let smooth = |link: &u32| {
+            let joint = (*link as usize).checked_sub(solid.len());
+            joint.is_some_and(|k| is_smooth(bodies, &joints.values()[joined[k] as usize]))
+        };
+        left.extend((0..islands.len()).map(|k| islands.group(k).iter().all(smooth)));
     }
 
     /// Moves every group through a span.
@@ -140,6 +179,9 @@ impl World {
         }
         self.state.contacts.scale_impulses(span.h());
         for k in 0..self.scratch.contacts.islands.len() {
+            if self.scratch.contacts.leaves(k) {
+                continue;
+            }
             self.gather(k, span);
             let outcome = self.step_group(span);
             self.keep_solver();
@@ -237,6 +279,7 @@ impl World {
             handles: &bodies.map,
             masses: &bodies.masses,
             infos: &bodies.infos,
+            members: &[],
             steady: &scratch.steady,
             gravity: state.settings.gravity,
             air: state.settings.air,

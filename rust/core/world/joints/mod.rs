@@ -1,11 +1,13 @@
 //! Joints of a world: made, read, changed, removed.
 
+mod advance;
 mod make;
 mod step;
 mod swings;
 
 pub use swings::SpringMotion;
 
+pub(super) use advance::{JoinedScratch, is_smooth};
 pub(super) use step::{Memory, keep, tie, tied};
 
 use std::mem::discriminant;

@@ -1,0 +1,43 @@
+//! What moves bodies: the forces on them, and the joints that hold them.
+
+use crate::error::Result;
+use crate::forces::{Forces, Ledger};
+use crate::math::{Pose, Real, Twist};
+use crate::methods::Motion;
+use crate::methods::joined::Joints;
+
+/// Forces, and joints where the bodies have any.
+pub struct System<'a> {
+    /// The forces.
+    pub forces: Forces<'a>,
+    /// The joints, none of which has a bound on what it may use.
+    pub joints: Option<&'a mut Joints>,
+}
+
+impl System<'_> {
+    /// Accelerations by everything, and the power that goes to work and to dissipation (W).
+    pub fn accelerate(
+        &mut self,
+        time: Real,
+        poses: &[Pose],
+        twists: &[Twist],
+        out: &mut [Twist],
+    ) -> Result<Ledger> {
+        let mut power = self.forces.accelerate(time, poses, twists, out)?;
+        if let Some(joints) = &mut self.joints {
+            power += joints.accelerate(poses, twists, out);
+        }
+        Ok(power)
+    }
+
+    /// Puts the bodies where the joints hold, and stops what moves against them; returns what that took (J).
+    pub fn settle(&mut self, poses: &mut [Pose], twists: &mut [Twist]) -> Ledger {
+        let Some(joints) = &mut self.joints else { return Ledger::default() };
+        joints.settle((self.forces.masses, self.forces.gravity), poses, twists)
+    }
+
+    /// The same for a motion, and books it.
+    pub fn settle_motion(&mut self, motion: &mut Motion<'_>) {
+        *motion.ledger += self.settle(motion.poses, motion.twists);
+    }
+}
