@@ -7,7 +7,7 @@ use super::{BodyLabel, wrong};
 use crate::body::BodyHandle;
 use crate::error::{Error, Result, check};
 use crate::joint::{Coefficients, Given, Joint, JointDef, JointKind, ROWS};
-use crate::math::{Real, vec2};
+use crate::math::{Real, Wrench, vec2};
 
 /// What ties two bodies, or a body and the world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -47,6 +47,8 @@ pub struct SceneJointState {
     pub impulses: Vec<Real>,
     /// Length of that substep (s).
     pub substep: Real,
+    /// Force (N) on the second body and torque (N·m) about its anchor in the last step: steps are finer under large loads.
+    pub reaction: [Real; 3],
     /// The notch at which a ratchet stands (rad); none: the last that its angle has passed.
     pub notch: Option<Real>,
 }
@@ -132,6 +134,7 @@ impl SceneJointState {
             springs: joint.springs[..or_none(joint.springs.iter().any(Option::is_some))].to_vec(),
             impulses: joint.impulses[..or_none(joint.impulses.iter().any(|p| *p != 0.0))].to_vec(),
             substep: joint.substep,
+            reaction: [joint.reaction.force.x, joint.reaction.force.y, joint.reaction.torque],
             notch: is_ratchet.then_some(joint.notch),
         }
     }
@@ -159,6 +162,10 @@ impl SceneJointState {
         }
         check::not_negative("substep", self.substep)
             .map_err(|error| wrong(format!("{path}.substep"), error))?;
+        for (k, value) in self.reaction.iter().enumerate() {
+            check::finite("reaction", *value)
+                .map_err(|error| wrong(format!("{path}.reaction[{k}]"), error))?;
+        }
         for (own, spring) in joint.springs.iter_mut().zip(&self.springs) {
             if own.is_some() && spring.is_some() {
                 *own = *spring;
@@ -166,6 +173,8 @@ impl SceneJointState {
         }
         joint.impulses[..self.impulses.len()].copy_from_slice(&self.impulses);
         joint.substep = self.substep;
+        let [x, y, torque] = self.reaction;
+        joint.reaction = Wrench::new(vec2(x, y), torque);
         joint.notch = self.notch.unwrap_or(joint.notch);
         Ok(())
     }
