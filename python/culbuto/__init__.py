@@ -72,6 +72,7 @@ from culbuto._native import (
     Shape,
     SimulationError,
     Snapshot,
+    SpringMotion,
     StaleHandleError,
     State,
     Stepper,
@@ -86,6 +87,7 @@ from culbuto._native import (
 from culbuto.catalogue import Laws, Limits, Scene, Verdict, scene, scenes, verify, verify_laws
 from culbuto.joints import (
     AngleSpringJoint,
+    CustomJoint,
     DistanceJoint,
     FilterJoint,
     FrictionJoint,
@@ -119,6 +121,7 @@ __all__ = [
     "ContactEvent",
     "ContactEvents",
     "Contacts",
+    "CustomJoint",
     "Distance",
     "DistanceJoint",
     "Energy",
@@ -160,6 +163,7 @@ __all__ = [
     "Shape",
     "SimulationError",
     "Snapshot",
+    "SpringMotion",
     "StaleHandleError",
     "State",
     "StepReport",

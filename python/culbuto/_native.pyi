@@ -68,6 +68,7 @@ __all__ = [
     "Shape",
     "SimulationError",
     "Snapshot",
+    "SpringMotion",
     "StaleHandleError",
     "State",
     "StepReport",
@@ -1144,6 +1145,40 @@ class Schedule:
         """Removes the schedule from its world."""
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
 
+@final
+class SpringMotion:
+    """How what hangs on a spring moves, whatever else holds its bodies left aside."""
+
+    __match_args__: Final = (
+        "row", "hertz", "damping_ratio", "stepped_hertz", "stepped_damping_ratio",
+    )  # fmt: skip
+    def __new__(
+        cls,
+        row: int,
+        hertz: float,
+        damping_ratio: float,
+        stepped_hertz: float,
+        stepped_damping_ratio: float,
+    ) -> SpringMotion: ...
+    @property
+    def row(self) -> int:
+        """Which row of the joint, counted from 0."""
+    @property
+    def hertz(self) -> float:
+        """Frequency of the undamped swing by the law (Hz), with the mass that hangs on it now."""
+    @property
+    def damping_ratio(self) -> float:
+        """Damping ratio by the law."""
+    @property
+    def stepped_hertz(self) -> float:
+        """Frequency as the steps make it (Hz)."""
+    @property
+    def stepped_damping_ratio(self) -> float:
+        """Damping ratio as the steps make it."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[SpringMotion], tuple[Any, ...]]: ...
+
 @disjoint_base
 class _Joint:
     """What the joints of all kinds are to the engine. Use `culbuto.Joint`."""
@@ -1153,6 +1188,11 @@ class _Joint:
         self, kind: str, body_a: Body | None, body_b: Body | None, **parameters: object
     ) -> None:
         """Drafts a joint of a kind between two bodies; None is the world."""
+    def _rule(self, function: Callable[..., Any], rows: int) -> None:
+        """Gives a custom joint its function of the poses of A and B, and its number of rows."""
+    @property
+    def _function(self) -> Callable[..., Any] | None:
+        """The function of a custom joint."""
     def _read(self, name: str) -> object:
         """A parameter, or something to be seen of it."""
     def _write(self, name: str, value: object) -> None:
@@ -1172,6 +1212,8 @@ class _Joint:
     @property
     def removed(self) -> bool:
         """Whether it was removed from its world."""
+    def spring_motions(self, dt: float) -> list[SpringMotion]:
+        """How what hangs on its springs moves, by the law and as steps of dt (s) make it."""
     def remove(self) -> None:
         """Removes the joint from its world."""
     def __reduce__(self) -> tuple[Any, ...]: ...
@@ -1604,7 +1646,9 @@ class Snapshot:
     def __len__(self) -> int: ...
     def __bool__(self) -> bool: ...
     def __copy__(self) -> Snapshot: ...
-    def __reduce__(self) -> tuple[type[Snapshot], tuple[bytes, list[tuple[Any, ...]]]]: ...
+    def __reduce__(
+        self,
+    ) -> tuple[type[Snapshot], tuple[bytes, list[tuple[Any, ...]], list[tuple[Any, ...]]]]: ...
 
 @final
 class World:

@@ -237,6 +237,11 @@ def _angle_spring(mark: Mark, joint: joints.AngleSpringJoint, ends: _Ends, size:
     mark.lines.append(_spiral(_center(joint.body_b, ends[1]), size))
 
 
+def _custom(mark: Mark, joint: joints.CustomJoint, ends: _Ends, _: float) -> None:
+    a, b = _center(joint.body_a, ends[0]), _center(joint.body_b, ends[1])
+    mark.thin.append(np.array([a, b]))
+
+
 _DRAWN: dict[type[joints.Joint], Callable[..., None]] = {
     joints.DistanceJoint: _distance,
     joints.RopeJoint: _rope,
@@ -252,4 +257,5 @@ _DRAWN: dict[type[joints.Joint], Callable[..., None]] = {
     joints.RatchetJoint: _ratchet,
     joints.FrictionJoint: _friction,
     joints.AngleSpringJoint: _angle_spring,
+    joints.CustomJoint: _custom,
 }

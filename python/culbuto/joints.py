@@ -40,15 +40,19 @@ from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypedDict, TypeVar, c
 from culbuto._native import Vec2, _Joint
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
-    from numpy.typing import NDArray
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self, Unpack
 
     from culbuto._native import Body
 
     _Vector: TypeAlias = Vec2 | Sequence[float] | NDArray[Any]
     _Points: TypeAlias = Sequence[_Vector] | NDArray[Any]
+
+    _Pose: TypeAlias = NDArray[np.float64]
+    _Constraint: TypeAlias = Callable[[_Pose, _Pose], tuple[ArrayLike, ArrayLike]]
 
     class _Common(TypedDict, total=False):
         """What all joints with anchors take."""
@@ -598,6 +602,45 @@ class FilterJoint(Joint):
         self._make("filter", body_a, body_b, name=name)
 
 
+@final
+class CustomJoint(Joint):
+    """Keeps C(q) = 0, by a function of your own.
+
+    The function gets the poses of A and of B, each an array (3,) of x, y (m) and angle (rad) of its
+    frame, and gives C and its Jacobian: of `rows` rows (1 to 3) an array (rows,) and an array
+    (rows, 6) of ∂C/∂(x, y, angle) of A, then of B. One row may be a number and an array (6,). The
+    Jacobian is compared with differences of C when the joint is added.
+
+    >>> import culbuto as cb
+    >>> def on_a_parabola(a, b):
+    ...     x, y, _ = b
+    ...     return y - x * x, [0, 0, 0, -2 * x, 1, 0]
+    >>> world = cb.World()
+    >>> bead = world.add_body(mass=1, position=(1, 1))
+    >>> wire = world.add_joint(cb.CustomJoint(None, bead, on_a_parabola))
+    >>> world.step(1 / 240, 240)
+    >>> abs(bead.position.y - bead.position.x**2) < 1e-9
+    True
+    """
+
+    def __init__(
+        self,
+        body_a: Body | None,
+        body_b: Body | None,
+        constraint: _Constraint,
+        *,
+        rows: int = 1,
+        **others: Unpack[_Common],
+    ) -> None:
+        self._make("custom", body_a, body_b, **others)
+        self._rule(constraint, rows)
+
+    @property
+    def constraint(self) -> _Constraint:
+        """The function."""
+        return cast("_Constraint", self._function)
+
+
 _CLASSES: dict[str, type[Joint]] = {
     "distance": DistanceJoint,
     "rope": RopeJoint,
@@ -614,6 +657,7 @@ _CLASSES: dict[str, type[Joint]] = {
     "friction": FrictionJoint,
     "angle_spring": AngleSpringJoint,
     "filter": FilterJoint,
+    "custom": CustomJoint,
 }
 
 

@@ -14,6 +14,7 @@ use numpy::{
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
+use crate::code::Code;
 use crate::error::to_py;
 use crate::world::World;
 
@@ -151,7 +152,7 @@ pub fn scene_error(
 #[pyfunction]
 pub fn open_scene<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, World>> {
     let motion = motion_of(name)?;
-    World::assembled(py, (motion.build)().map_err(to_py)?, &[])
+    World::assembled(py, (motion.build)().map_err(to_py)?, &Code::default())
 }
 
 /// The conservation laws on a run of a copy of a world. Limits: energy, momentum, angular momentum,

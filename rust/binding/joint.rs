@@ -5,16 +5,18 @@
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use culbuto::joint::{Joint as Kind, JointDef, JointHandle, JointKind};
+use culbuto::math::Real;
 use culbuto::world::JointRef;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::gc::{PyTraverseError, PyVisit};
 use pyo3::prelude::*;
-use pyo3::types::{PyDict, PyString, PyTuple, PyType};
+use pyo3::types::{PyDict, PyString, PyTuple};
 
 use crate::body::Body;
-use crate::error::StaleHandleError;
+use crate::custom_joint::Rule;
+use crate::error::{StaleHandleError, to_py};
 use crate::joint_parameters::{Value, blank, joint_error, parameter, put, seen};
-use crate::joint_springs::Springs;
+use crate::joint_springs::{SpringMotion, Springs};
 use crate::parts::{Made, Place};
 use crate::world::World;
 
@@ -24,13 +26,15 @@ pub struct Joint {
     made: Made,
     /// Never held while Python may run.
     draft: Mutex<Draft>,
-    place: OnceLock<Place<Kind>>,
+    pub place: OnceLock<Place<Kind>>,
+    /// The user's own code, of a custom joint.
+    rule: OnceLock<Py<Rule>>,
 }
 
 /// What is to be made. Once it is made, nothing is left of it.
-struct Draft {
-    def: JointDef,
-    bodies: [Option<Py<Body>>; 2],
+pub struct Draft {
+    pub def: JointDef,
+    pub bodies: [Option<Py<Body>>; 2],
 }
 
 impl Draft {
@@ -38,14 +42,14 @@ impl Draft {
         Self { def: JointDef::new(None, None, JointKind::Filter), bodies: [None, None] }
     }
 
-    fn bodies(&self, py: Python<'_>) -> [Option<Py<Body>>; 2] {
+    pub fn bodies(&self, py: Python<'_>) -> [Option<Py<Body>>; 2] {
         self.bodies.each_ref().map(|body| body.as_ref().map(|body| body.clone_ref(py)))
     }
 }
 
 /// Reaching the joint in the core.
 impl Joint {
-    fn draft(&self) -> MutexGuard<'_, Draft> {
+    pub fn draft(&self) -> MutexGuard<'_, Draft> {
         self.draft.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -53,6 +57,19 @@ impl Joint {
         self.place.get().ok_or_else(|| {
             StaleHandleError::new_err("this joint is in no world yet: World.add_joint adds it")
         })
+    }
+
+    /// The user's own code, of a custom joint.
+    pub fn rule(&self) -> Option<&Py<Rule>> {
+        self.rule.get()
+    }
+
+    /// Gives a rule to a joint that has none yet.
+    pub fn adopt(&self, rule: Option<Py<Rule>>) {
+        if let Some(rule) = rule {
+            // A joint that has a rule keeps it: they are the same.
+            let _ = self.rule.set(rule);
+        }
     }
 
     /// The handle it has or had.
@@ -102,9 +119,10 @@ impl Joint {
 
     fn live<T>(&self, py: Python<'_>, read: impl FnOnce(JointRef<'_>) -> T) -> PyResult<T> {
         let place = self.place()?;
-        let core = place.world.get().core(py)?;
-        let handle = place.handle()?;
-        core.joint(handle).map(read).map_err(crate::error::to_py)
+        let world = place.world.get();
+        let core = world.core(py)?;
+        let _at_work = world.at_work();
+        core.joint(place.handle()?).map(read).map_err(to_py)
     }
 
     fn def<T>(&self, py: Python<'_>, read: impl FnOnce(&JointDef) -> T) -> PyResult<T> {
@@ -129,8 +147,11 @@ impl Joint {
         place.check_world(world)?;
         let own = world.get();
         let mut core = own.core(world.py())?;
-        core.remove_joint(place.handle()?).map_err(crate::error::to_py)?;
-        let gone = own.objects().keep_joints(core.joint_handles());
+        let handle = place.handle()?;
+        let index = core.joint_handles().iter().position(|other| *other == handle);
+        core.remove_joint(handle).map_err(to_py)?;
+        place.leave();
+        let gone = index.map(|index| own.objects().joints.swap_remove(index));
         drop(core);
         drop(gone);
         Ok(())
@@ -159,6 +180,7 @@ impl Joint {
             }
         }
         let place = Place::new(world);
+        let rule = own.rule().map(|rule| Rule::shared(rule.bind(py))).transpose()?;
         let mut core = world.get().core(py)?;
         if own.place.get().is_some() {
             return Err(again());
@@ -167,7 +189,14 @@ impl Joint {
             *handle = body.as_ref().map(|body| body.get().place.handle()).transpose()?;
         }
         let kind = def.kind;
-        let handle = core.add_joint(def).map_err(|error| joint_error(&kind, error))?;
+        let handle = {
+            let _at_work = world.get().at_work();
+            match rule {
+                Some(rule) => core.add_custom_joint(def, rule),
+                None => core.add_joint(def),
+            }
+        }
+        .map_err(|error| joint_error(&kind, error))?;
         place.enter(handle);
         own.place.set(place).map_err(|_| again())?;
         world.get().objects().joints.push(slf.clone().unbind());
@@ -183,7 +212,12 @@ impl Joint {
     #[new]
     #[pyo3(signature = (*_arguments, **_keywords))]
     fn new(_arguments: &Bound<'_, PyTuple>, _keywords: Option<&Bound<'_, PyDict>>) -> Self {
-        Self { made: Made::default(), draft: Mutex::new(Draft::empty()), place: OnceLock::new() }
+        Self {
+            made: Made::default(),
+            draft: Mutex::new(Draft::empty()),
+            place: OnceLock::new(),
+            rule: OnceLock::new(),
+        }
     }
 
     /// Drafts a joint of a kind between two bodies; None is the world.
@@ -229,6 +263,18 @@ impl Joint {
         Ok(())
     }
 
+    /// Gives a custom joint its function of the poses of A and B, and its number of rows.
+    fn _rule(&self, py: Python<'_>, function: Py<PyAny>, rows: usize) -> PyResult<()> {
+        self.adopt(Some(Rule::new(py, (function, rows))?));
+        Ok(())
+    }
+
+    /// The function of a custom joint.
+    #[getter]
+    fn _function(&self, py: Python<'_>) -> Option<Py<PyAny>> {
+        self.rule().map(|rule| rule.get().function.clone_ref(py))
+    }
+
     /// A parameter, or something to be seen of it.
     fn _read(&self, py: Python<'_>, name: &str) -> PyResult<Value> {
         if let Some(found) = self.def(py, |def| parameter(def, name))? {
@@ -248,9 +294,11 @@ impl Joint {
             draft.def = def;
             return Ok(());
         };
-        let mut core = place.world.get().core(py)?;
+        let world = place.world.get();
+        let mut core = world.core(py)?;
+        let _at_work = world.at_work();
         let handle = place.handle()?;
-        let joint = core.joint(handle).map_err(crate::error::to_py)?;
+        let joint = core.joint(handle).map_err(to_py)?;
         let mut def = joint.def().clone();
         put(&mut def, name, value, Some(&joint))?;
         let kind = def.kind;
@@ -287,6 +335,16 @@ impl Joint {
         self.place.get().is_some_and(|place| !place.is_alive())
     }
 
+    /// How what hangs on its springs moves, by the law and as steps of dt (s) make it.
+    fn spring_motions(&self, py: Python<'_>, dt: Real) -> PyResult<Vec<SpringMotion>> {
+        let place = self.place()?;
+        let world = place.world.get();
+        let core = world.core(py)?;
+        let _at_work = world.at_work();
+        let motions = core.spring_motions(place.handle()?, dt).map_err(to_py)?;
+        Ok(motions.iter().map(SpringMotion::from).collect())
+    }
+
     /// Removes the joint from its world.
     fn remove(&self, py: Python<'_>) -> PyResult<()> {
         self.remove_from(self.place()?.world.bind(py))
@@ -309,44 +367,6 @@ impl Joint {
         Ok(format!("<{class}{name} of {} and {}>", side(0)?, side(1)?))
     }
 
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        let (py, own, class) = (slf.py(), slf.get(), slf.get_type());
-        let attributes = slf.getattr("__dict__")?;
-        if let Some(place) = own.place.get() {
-            let slot = place.slot().filter(|_| place.is_alive());
-            let finder = py
-                .import("operator")?
-                .getattr("methodcaller")?
-                .call1(("_part", "joint", slot, class))?;
-            return (finder, (place.world.clone_ref(py),), attributes)
-                .into_pyobject(py)
-                .map(Bound::into_any);
-        }
-        let (def, bodies) = {
-            let draft = own.draft();
-            (serde_json::to_string(&draft.def), draft.bodies(py))
-        };
-        let def = def.map_err(|error| PyValueError::new_err(error.to_string()))?;
-        let [a, b] = bodies;
-        let new = py.import("copyreg")?.getattr("__newobj__")?;
-        (new, (class,), (def, a, b, attributes)).into_pyobject(py).map(Bound::into_any)
-    }
-
-    fn __setstate__(slf: &Bound<'_, Self>, state: &Bound<'_, PyAny>) -> PyResult<()> {
-        let own = slf.getattr("__dict__")?.cast_into::<PyDict>()?;
-        if let Ok(attributes) = state.cast::<PyDict>() {
-            return own.update(attributes.as_mapping());
-        }
-        type Drafted<'py> = (String, Option<Py<Body>>, Option<Py<Body>>, Bound<'py, PyDict>);
-        let (def, a, b, attributes) = state.extract::<Drafted<'_>>()?;
-        own.update(attributes.as_mapping())?;
-        let def = serde_json::from_str(&def)
-            .map_err(|_| PyValueError::new_err("this is no pickled joint"))?;
-        let old = std::mem::replace(&mut *slf.get().draft(), Draft { def, bodies: [a, b] });
-        drop(old);
-        Ok(())
-    }
-
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
         if !self.made.yes() {
             return Ok(());
@@ -354,30 +374,8 @@ impl Joint {
         if let Some(place) = self.place.get() {
             place.traverse(&visit)?;
         }
+        visit.call(self.rule.get())?;
         let Ok(draft) = self.draft.try_lock() else { return Ok(()) };
         draft.bodies.iter().flatten().try_for_each(|body| visit.call(body))
     }
-}
-
-/// The classes of joints, by kind.
-pub struct Classes<'py>(Bound<'py, PyAny>);
-
-impl<'py> Classes<'py> {
-    /// Those of `culbuto.joints`.
-    pub fn known(py: Python<'py>) -> PyResult<Self> {
-        Ok(Self(py.import("culbuto.joints")?.getattr("class_of")?))
-    }
-
-    /// That of a joint.
-    pub fn of(&self, joint: &Kind) -> PyResult<Bound<'py, PyAny>> {
-        let is_rope = matches!(joint.def.kind, JointKind::Distance { hold, max: Some(_), min: 0.0, .. }
-            if hold == culbuto::joint::Hold::Free);
-        self.0.call1((if is_rope { "rope" } else { joint.def.kind.name() },))
-    }
-}
-
-/// A class of joints, as an argument.
-pub fn joint_class<'py>(class: Option<Bound<'py, PyType>>) -> PyResult<Bound<'py, PyType>> {
-    let of_joints = |class: &Bound<'py, PyType>| class.is_subclass_of::<Joint>().unwrap_or(false);
-    class.filter(of_joints).ok_or_else(|| PyTypeError::new_err("this is no class of joints"))
 }

@@ -99,6 +99,7 @@ pub fn blank(kind: &str) -> Option<JointKind> {
         "friction" => JointKind::Friction { max_force: 0.0, max_torque: 0.0 },
         "angle_spring" => JointKind::AngleSpring { angle, spring: Spring::new(1.0, 0.0) },
         "filter" => JointKind::Filter,
+        "custom" => JointKind::Custom,
         _ => return None,
     })
 }

@@ -7,6 +7,36 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
 use crate::joint_parameters::{Value, number_or_none};
+use crate::record::record;
+
+record! {
+    /// How what hangs on a spring moves, whatever else holds its bodies left aside.
+    SpringMotion {
+        /// Which row of the joint, counted from 0.
+        row: usize,
+        /// Frequency of the undamped swing by the law (Hz), with the mass that hangs on it where it is now.
+        hertz: Real,
+        /// Damping ratio by the law.
+        damping_ratio: Real,
+        /// Frequency as the steps make it (Hz).
+        stepped_hertz: Real,
+        /// Damping ratio as the steps make it.
+        stepped_damping_ratio: Real,
+    }
+}
+
+impl From<&culbuto::world::SpringMotion> for SpringMotion {
+    fn from(motion: &culbuto::world::SpringMotion) -> Self {
+        let culbuto::world::SpringMotion { row, exact, stepped } = *motion;
+        Self {
+            row,
+            hertz: exact.hertz,
+            damping_ratio: exact.damping_ratio,
+            stepped_hertz: stepped.hertz,
+            stepped_damping_ratio: stepped.damping_ratio,
+        }
+    }
+}
 
 /// What of a joint a spring holds.
 #[derive(Clone, Copy, PartialEq)]

@@ -119,7 +119,9 @@ impl Joints {
     }
 
     fn each<T>(&self, py: Python<'_>, read: impl Fn(JointRef<'_>) -> T) -> PyResult<Vec<T>> {
-        let core = self.world.get().core(py)?;
+        let world = self.world.get();
+        let core = world.core(py)?;
+        let _at_work = world.at_work();
         let read = |handle: &JointHandle| core.joint(*handle).map(&read);
         core.joint_handles().iter().map(read).collect::<Result<_, _>>().map_err(to_py)
     }

@@ -10,8 +10,10 @@ mod arrays;
 mod body;
 mod body_def;
 mod catalogue;
+mod code;
 mod contacts;
 mod convert;
+mod custom_joint;
 mod drawing;
 mod error;
 mod field;
@@ -19,6 +21,7 @@ mod found;
 mod hooks;
 mod joint;
 mod joint_parameters;
+mod joint_pickle;
 mod joint_springs;
 mod joints;
 mod law;
@@ -62,6 +65,8 @@ mod culbuto_native {
     use crate::hooks::PreSolve;
     #[pymodule_export]
     use crate::joint::Joint;
+    #[pymodule_export]
+    use crate::joint_springs::SpringMotion;
     #[pymodule_export]
     use crate::joints::{BrokenJoint, Joints};
     #[pymodule_export]

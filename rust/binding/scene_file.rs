@@ -7,6 +7,7 @@ use culbuto::math::Real;
 use culbuto::scenes::SceneFile as Core;
 use pyo3::prelude::*;
 
+use crate::code::Code;
 use crate::error::to_py;
 use crate::world::World;
 
@@ -82,7 +83,7 @@ impl SceneFile {
 
     /// A new world of the scene, at its beginning.
     fn world<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, World>> {
-        World::assembled(py, py.detach(|| self.0.world()).map_err(to_py)?, &[])
+        World::assembled(py, py.detach(|| self.0.world()).map_err(to_py)?, &Code::default())
     }
 
     /// The scene as JSON text: always the same for the same scene, every number to its last bit.
@@ -111,7 +112,7 @@ impl World {
     #[staticmethod]
     fn from_file(py: Python<'_>, path: PathBuf) -> PyResult<Bound<'_, Self>> {
         let read = || Core::read(path)?.world();
-        Self::assembled(py, py.detach(read).map_err(to_py)?, &[])
+        Self::assembled(py, py.detach(read).map_err(to_py)?, &Code::default())
     }
 
     /// Writes the world as it is to a scene file, over one that is there.

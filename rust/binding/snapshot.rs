@@ -1,10 +1,8 @@
 //! Worlds that are kept, copied and sent: what each Python object becomes on the way.
 
 use std::collections::HashMap;
-use std::sync::Arc;
 
 use culbuto::World as Core;
-use culbuto::forces::ForceField;
 use culbuto::world::Snapshot as Kept;
 use pyo3::exceptions::PyValueError;
 use pyo3::gc::{PyTraverseError, PyVisit};
@@ -14,10 +12,13 @@ use pyo3::types::{PyBytes, PyDict, PyTuple, PyType};
 use pyo3::PyClass;
 
 use crate::body::Body;
+use crate::code::{Code, CodeParts};
+use crate::custom_joint::RuleParts;
 use crate::error::to_py;
 use crate::field::Field;
-use crate::joint::{Classes, Joint, joint_class};
-use crate::law::{Law, LawParts};
+use crate::joint::Joint;
+use crate::joint_pickle::{Classes, joint_class};
+use crate::law::LawParts;
 use crate::parts::Place;
 use crate::schedule::Schedule;
 use crate::world::{Objects, World};
@@ -26,21 +27,25 @@ use crate::world::{Objects, World};
 #[pyclass(frozen, weakref, module = "culbuto")]
 pub struct Snapshot {
     kept: Kept,
-    /// The user's laws, in the order of the fields.
-    laws: Vec<Py<Law>>,
+    /// The user's own code in it.
+    code: Code,
     /// The world it is of, and the objects of then; none once it was pickled.
     origin: Option<(Py<World>, Objects)>,
 }
 
 #[pymethods]
 impl Snapshot {
-    /// A snapshot from the bytes of another, and the user's fields that are not in them. For pickles.
+    /// A snapshot from the bytes of another, and the user's fields and joints that are not in them. For pickles.
     #[new]
-    #[pyo3(signature = (data, laws=Vec::new()))]
-    fn new(py: Python<'_>, data: &[u8], laws: Vec<LawParts>) -> PyResult<Self> {
-        let (laws, shared) = make_laws(py, laws)?;
-        let kept = Kept::from_bytes(data, shared).map_err(to_py)?;
-        Ok(Self { kept, laws, origin: None })
+    #[pyo3(signature = (data, laws=Vec::new(), rules=Vec::new()))]
+    fn new(
+        py: Python<'_>,
+        data: &[u8],
+        laws: Vec<LawParts>,
+        rules: Vec<RuleParts>,
+    ) -> PyResult<Self> {
+        let code = Code::from_parts(py, (laws, rules))?;
+        Ok(Self { kept: code.snapshot(py, data)?, code, origin: None })
     }
 
     /// World time (s).
@@ -60,7 +65,7 @@ impl Snapshot {
 
     /// A new world that continues from here.
     fn to_world<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, World>> {
-        World::assembled(py, self.kept.to_world(), &self.laws)
+        World::assembled(py, self.kept.to_world(), &self.code)
     }
 
     fn __copy__(slf: Py<Self>) -> Py<Self> {
@@ -70,8 +75,8 @@ impl Snapshot {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Stored<'py>)> {
         let (py, own) = (slf.py(), slf.get());
         let data = own.kept.to_bytes().map_err(to_py)?;
-        let laws = own.laws.iter().map(|law| law.get().parts(py)).collect();
-        Ok((slf.get_type().into_any(), (PyBytes::new(py, &data), laws)))
+        let (laws, rules) = own.code.parts(py);
+        Ok((slf.get_type().into_any(), (PyBytes::new(py, &data), laws, rules)))
     }
 
     fn __repr__(&self) -> String {
@@ -79,7 +84,7 @@ impl Snapshot {
     }
 
     fn __traverse__(&self, visit: PyVisit<'_>) -> Result<(), PyTraverseError> {
-        self.laws.iter().try_for_each(|law| visit.call(law))?;
+        self.code.traverse(&visit)?;
         if let Some((world, objects)) = &self.origin {
             visit.call(world)?;
             objects.traverse(&visit)?;
@@ -89,20 +94,7 @@ impl Snapshot {
 }
 
 /// What a pickle holds of a snapshot.
-type Stored<'py> = (Bound<'py, PyBytes>, Vec<LawParts>);
-
-/// Laws, and the engine's side of them.
-type Laws = (Vec<Py<Law>>, Vec<Arc<dyn ForceField>>);
-
-fn make_laws(py: Python<'_>, parts: Vec<LawParts>) -> PyResult<Laws> {
-    let (mut laws, mut shared) = (Vec::new(), Vec::new());
-    for parts in parts {
-        let law = Law::from_parts(py, parts)?;
-        shared.push(Law::shared(&law)?);
-        laws.push(law.unbind());
-    }
-    Ok((laws, shared))
-}
+type Stored<'py> = (Bound<'py, PyBytes>, Vec<LawParts>, Vec<RuleParts>);
 
 impl Objects {
     /// Shows the garbage collector all objects.
@@ -124,24 +116,32 @@ impl Objects {
         }
     }
 
-    /// The user's laws, in the order of the fields.
-    fn laws(&self, py: Python<'_>) -> Vec<Py<Law>> {
+    /// The user's own code.
+    fn code(&self, py: Python<'_>) -> Code {
         let law = |field: &Py<Field>| field.get().law().map(|law| law.clone_ref(py));
-        self.fields.iter().filter_map(law).collect()
+        let rule = |joint: &Py<Joint>| joint.get().rule().map(|rule| rule.clone_ref(py));
+        Code {
+            laws: self.fields.iter().filter_map(law).collect(),
+            rules: self.joints.iter().filter_map(rule).collect(),
+        }
     }
 
     /// New objects for all that a core has.
-    fn new(world: &Bound<'_, World>, kept: &Kept, laws: &[Py<Law>]) -> PyResult<Self> {
+    fn new(world: &Bound<'_, World>, kept: &Kept, code: &Code) -> PyResult<Self> {
         let py = world.py();
         let mut objects = Self::default();
         for _ in kept.bodies() {
             objects.bodies.push(Py::new(py, Body { place: Place::new(world) })?);
         }
         let classes = Classes::known(py)?;
+        let (mut laws, mut rules) = (code.laws.iter(), code.rules.iter());
         for joint in kept.joints() {
-            objects.joints.push(Joint::placed(world, &classes.of(joint)?)?.unbind());
+            let made = Joint::placed(world, &classes.of(joint)?)?;
+            if joint.custom.is_some() {
+                made.get().adopt(rules.next().map(|rule| rule.clone_ref(py)));
+            }
+            objects.joints.push(made.unbind());
         }
-        let mut laws = laws.iter();
         for field in kept.fields() {
             let own = if field.built_in().is_none() { laws.next() } else { None };
             let law = own.map(|law| law.clone_ref(py));
@@ -191,14 +191,10 @@ impl Objects {
 
 impl World {
     /// A world around a core.
-    pub fn assembled<'py>(
-        py: Python<'py>,
-        core: Core,
-        laws: &[Py<Law>],
-    ) -> PyResult<Bound<'py, Self>> {
+    pub fn assembled<'py>(py: Python<'py>, core: Core, code: &Code) -> PyResult<Bound<'py, Self>> {
         let kept = core.snapshot();
         let world = Bound::new(py, Self::from_core(core))?;
-        let objects = Objects::new(&world, &kept, laws)?;
+        let objects = Objects::new(&world, &kept, code)?;
         objects.enter(&kept);
         *world.get().objects() = objects;
         Ok(world)
@@ -222,7 +218,7 @@ impl World {
 /// What a pickle holds of a world.
 type Pickled<'py> = (
     Bound<'py, PyBytes>,
-    Vec<LawParts>,
+    CodeParts,
     Vec<Py<Body>>,
     Vec<Py<Joint>>,
     Vec<Py<Field>>,
@@ -238,8 +234,8 @@ impl World {
         let core = slf.get().core(py)?;
         let (kept, objects) = (core.snapshot(), slf.get().objects().copied(py));
         drop(core);
-        let laws = objects.laws(py);
-        Ok(Snapshot { kept, laws, origin: Some((slf.clone().unbind(), objects)) })
+        let code = objects.code(py);
+        Ok(Snapshot { kept, code, origin: Some((slf.clone().unbind(), objects)) })
     }
 
     /// Goes back to a snapshot, of this world or of another. The objects of then are those of now again, the
@@ -247,11 +243,11 @@ impl World {
     /// whose handles are the same keep their objects, and the rest is made anew.
     fn restore(slf: &Bound<'_, Self>, snapshot: &Bound<'_, Snapshot>) -> PyResult<()> {
         let (py, own) = (slf.py(), slf.get());
-        let Snapshot { kept, laws, origin } = snapshot.get();
+        let Snapshot { kept, code, origin } = snapshot.get();
         let objects = match origin {
             Some((world, objects)) if world.is(slf) => objects.copied(py),
             _ => {
-                let mut objects = Objects::new(slf, kept, laws)?;
+                let mut objects = Objects::new(slf, kept, code)?;
                 let present = own.objects().copied(py);
                 objects.keep_bodies(py, &present.bodies, kept);
                 objects
@@ -266,7 +262,7 @@ impl World {
         let core = own.core(py)?;
         let (copy, objects) = (core.clone(), own.objects().copied(py));
         drop(core);
-        let world = Self::assembled(py, copy, &objects.laws(py))?;
+        let world = Self::assembled(py, copy, &objects.code(py))?;
         Self::copy_rules(slf, &world)?;
         let made = world.get().objects().copied(py);
         copy_attributes(slf, &world)?;
@@ -293,10 +289,10 @@ impl World {
         let (kept, objects) = (core.snapshot(), own.objects().copied(py));
         drop(core);
         let data = PyBytes::new(py, &kept.to_bytes().map_err(to_py)?);
-        let laws = objects.laws(py).iter().map(|law| law.get().parts(py)).collect();
+        let code = objects.code(py).parts(py);
         let Objects { bodies, joints, fields, schedules, .. } = objects;
         let attributes = slf.getattr("__dict__")?;
-        let state = (data, laws, bodies, joints, fields, schedules, attributes);
+        let state = (data, code, bodies, joints, fields, schedules, attributes);
         Ok((slf.get_type().into_any(), PyTuple::empty(py), state))
     }
 
@@ -327,11 +323,11 @@ impl World {
 
     fn __setstate__(slf: &Bound<'_, Self>, state: Pickled<'_>) -> PyResult<()> {
         let py = slf.py();
-        let (data, laws, bodies, joints, fields, schedules, attributes) = state;
-        let (laws, shared) = make_laws(py, laws)?;
-        let kept = Kept::from_bytes(data.as_bytes(), shared).map_err(to_py)?;
-        // Fields are made here, around the laws; their pickles find them by their place.
-        let mut objects = Objects::new(slf, &kept, &laws)?;
+        let (data, code, bodies, joints, fields, schedules, attributes) = state;
+        let code = Code::from_parts(py, code)?;
+        let kept = code.snapshot(py, data.as_bytes())?;
+        // Fields and joints are made here, around the code; their pickles find them by their place.
+        let mut objects = Objects::new(slf, &kept, &code)?;
         let wanted =
             [kept.bodies().len(), kept.joints().len(), kept.fields().len(), kept.schedules().len()];
         if [bodies.len(), joints.len(), fields.len(), schedules.len()] != wanted {
@@ -345,7 +341,11 @@ impl World {
         if !right {
             return Err(PyValueError::new_err("this is no pickled world"));
         }
-        (objects.bodies, objects.joints, objects.schedules) = (bodies, joints, schedules);
+        (objects.bodies, objects.schedules) = (bodies, schedules);
+        for (joint, made) in joints.iter().zip(&objects.joints) {
+            joint.get().adopt(made.get().rule().map(|rule| rule.clone_ref(py)));
+        }
+        objects.joints = joints;
         for (field, law) in fields.iter().zip(&objects.fields) {
             field.get().adopt(law.get().law().map(|law| law.clone_ref(py)));
         }

@@ -91,6 +91,11 @@ impl World {
         }
     }
 
+    /// Marks this thread as at work in the core, which is locked, where the user's own code may run.
+    pub fn at_work(&self) -> Working<'_> {
+        Working::new(&self.worker)
+    }
+
     /// The Python objects, for a moment. The core is locked before, where both are wanted.
     pub fn objects(&self) -> MutexGuard<'_, Objects> {
         self.objects.lock().unwrap_or_else(PoisonError::into_inner)
@@ -117,7 +122,7 @@ impl World {
     pub fn not_within(&self) -> PyResult<()> {
         if self.worker.load(Ordering::Relaxed) == this_thread() {
             return Err(PyRuntimeError::new_err(
-                "this world is at work: a field or a contact hook cannot touch the world that calls it; \
+                "this world is at work: a field, a joint or a contact hook cannot touch the world that calls it; \
                  it is given all it may see as its argument",
             ));
         }
@@ -135,7 +140,7 @@ impl World {
 }
 
 /// Says which thread works, until it is dropped.
-struct Working<'a>(&'a AtomicUsize);
+pub struct Working<'a>(&'a AtomicUsize);
 
 impl<'a> Working<'a> {
     fn new(worker: &'a AtomicUsize) -> Self {

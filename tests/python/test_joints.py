@@ -106,6 +106,14 @@ KINDS: dict[str, tuple[Make, dict[str, Any]]] = {
     "filter": (lambda a, b: cb.FilterJoint(a, b) if a else cb.FilterJoint(b, b), {}),
 }  # fmt: skip
 
+
+def apart(a: Any, b: Any) -> tuple[float, list[float]]:
+    """Keeps the frames 5 m apart: C = |b − a|² − 25."""
+    x, y = b[:2] - a[:2]
+    return x * x + y * y - 25, [-2 * x, -2 * y, 0, 2 * x, 2 * y, 0]
+
+
+KINDS["custom"] = (lambda a, b: cb.CustomJoint(a, b, apart), {})
 every_kind = pytest.mark.parametrize("kind", KINDS)
 
 
@@ -224,7 +232,7 @@ def test_joints_and_drafts_are_pickled(kind: str) -> None:
     assert seen(made) == seen(world.add_joint(draft))
 
 
-@every_kind
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "custom"])
 def test_a_scene_file_keeps_them(kind: str) -> None:
     world, joint = added(kind)
     joint.name = "it"
@@ -509,3 +517,121 @@ def test_a_spring_stays_while_a_motor_is_changed() -> None:
     wheel.damping_ratio = 0.5
     assert wheel.stiffness != before
     assert ground.kind == "static"
+
+
+def on_a_circle(_: Any, b: Any) -> tuple[Any, Any]:
+    """A point one metre from the origin that keeps facing it: two rows."""
+    x, y, angle = b
+    r = math.hypot(x, y)
+    facing = math.remainder(angle - math.atan2(y, x), 2 * math.pi)
+    jacobian = [[0, 0, 0, x / r, y / r, 0], [0, 0, 0, y / r**2, -x / r**2, 1]]
+    return np.array([r - 1, facing]), np.array(jacobian)
+
+
+WAYS: list[Callable[[cb.World], cb.World]] = [
+    lambda world: world,
+    copy.copy,
+    copy.deepcopy,
+    lambda world: pickle.loads(pickle.dumps(world)),  # noqa: S301
+    lambda world: world.snapshot().to_world(),
+]
+
+
+@pytest.mark.parametrize("way", WAYS)
+def test_a_joint_of_ones_own_is_a_pendulum(way: Callable[[cb.World], cb.World]) -> None:
+    world = cb.World((0, -10))
+    own = world.add_body(mass=1, inertia=0.5, position=(1, 0))
+    hinged = world.add_body(mass=1, inertia=0.5, position=(1, 0))
+    joint = world.add_joint(cb.CustomJoint(None, own, on_a_circle, rows=2))
+    world.add_joint(cb.RevoluteJoint(None, hinged, point=(0, 0)))
+    assert joint.constraint is on_a_circle
+    other = way(world)
+    gc.collect()
+    other.step(1 / 240, 120)
+    np.testing.assert_allclose(other.positions[0], other.positions[1], atol=1e-4)
+    assert abs(other.positions[0][1]) > 0.5
+    assert other.joints[0].gap < 1e-9
+    with pytest.raises(cb.SceneFileError, match=r"joints\[0\].*code of your own"):
+        cb.SceneFile.from_world(world)
+
+
+def test_a_joint_of_ones_own_may_refer_to_its_world() -> None:
+    def make() -> weakref.ref[cb.World]:
+        world, _, a, b = bench()
+
+        def constraint(first: Any, second: Any) -> tuple[float, list[float]]:
+            assert world is not None
+            return apart(first, second)
+
+        world.add_joint(cb.CustomJoint(a, b, constraint))
+        return weakref.ref(world)
+
+    gone = make()
+    gc.collect()
+    assert gone() is None
+
+
+# What a function gives, and what is said of that.
+OWN: list[tuple[Callable[[Any, Any], Any], type[Exception], str]] = [
+    (lambda _, b: (b[0] ** 2, [0, 0, 0, 1, 0, 0]), ValueError, r"∂C0/∂x of B .* is 1; allowed"),
+    (lambda *_: 0.0, TypeError, "C and its Jacobian: a tuple"),
+    (lambda *_: (0.0, [0, 0, 0]), ValueError, r"no array of floats of shape \(1, 6\)"),
+    (lambda *_: ([0.0, 1.0], np.zeros((1, 6))), ValueError, r"C of the joint .* has shape"),
+    (lambda *_: 1 / 0, ZeroDivisionError, "division"),
+]
+
+
+@pytest.mark.parametrize(("constraint", "error", "part"), OWN, ids=[part for *_, part in OWN])
+def test_what_is_wrong_with_a_joint_of_ones_own_is_told(
+    constraint: Any, error: type[Exception], part: str
+) -> None:
+    world, _, a, b = bench()
+    with pytest.raises(error, match=part):
+        world.add_joint(cb.CustomJoint(a, b, constraint))
+    assert len(world.joints) == 0
+    with pytest.raises(TypeError, match="wanted a function"):
+        cb.CustomJoint(a, b, 3)  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="1 to 3"):
+        world.add_joint(cb.CustomJoint(a, b, apart, rows=4))
+
+
+def test_a_joint_of_ones_own_that_fails_ends_the_step() -> None:
+    world, _, a, b = bench()
+    mood = {"bad": False, "nosy": False}
+
+    def moody(first: Any, second: Any) -> tuple[float, list[float]]:
+        if mood["nosy"]:
+            world.step(1)
+        return (1 / 0, []) if mood["bad"] else apart(first, second)
+
+    joint = world.add_joint(cb.CustomJoint(a, b, moody))
+    b.velocity = (0, 1)
+    world.step(0.01)
+    before = world.snapshot().to_world()
+    for key, error in (("bad", ZeroDivisionError), ("nosy", RuntimeError)):
+        mood[key] = True
+        with pytest.raises(error):
+            world.step(0.01)
+        mood[key] = False
+        assert same(world, before)
+    assert joint in world.joints
+    world.step(0.01)
+
+
+def test_how_springs_swing_is_read_back() -> None:
+    world, _, a, b = bench()
+    joint = world.add_joint(cb.DistanceJoint(a, b, hertz=2, damping_ratio=0.25))
+    (motion,) = joint.spring_motions(1 / 60)
+    assert motion.row == 0
+    for hertz in (motion.hertz, motion.stepped_hertz):
+        assert hertz == pytest.approx(2, rel=1e-9)
+    for ratio in (motion.damping_ratio, motion.stepped_damping_ratio):
+        assert ratio == pytest.approx(0.25, rel=1e-9)
+    b.mass = 4  # what hangs on it is another now: 1/(1 + 1/4) of the mass before, 1/2
+    assert joint.spring_motions(1 / 60)[0].hertz == pytest.approx(2 * math.sqrt(0.5 / 0.8))
+    (fast,) = world.add_joint(cb.DistanceJoint(a, b, hertz=1e4)).spring_motions(1 / 60)
+    assert fast.hertz == pytest.approx(1e4)
+    assert fast.stepped_hertz < 240  # no more than half a turn a substep
+    with pytest.raises(ValueError, match="dt is 0"):
+        joint.spring_motions(0)
+    assert joint.spring_motions(0.1)[0] != motion

@@ -33,6 +33,7 @@ def test_the_guide_is_valid() -> None:
         {"culbuto": 2},
         {"fluids": []},
         {"joints": [{"joint": "filter"}]},
+        {"joints": [{"bodies": [0, None], "joint": "custom"}]},
         {"joints": [{"bodies": [0, None], "joint": {"gear": {}}}]},
         {"joints": [{"bodies": [0, None], "joint": {"weld": {"linear": "stiff"}}}]},
         {"joints": [{"bodies": [0, None], "anchors": [[0], [0]], "joint": "filter"}]},

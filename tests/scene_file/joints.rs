@@ -233,6 +233,7 @@ fn what_is_as_usual_of_a_joint_is_not_written() {
 
 /// (the joint, path, part of the message).
 const BAD: &[(&str, &str, &str)] = &[
+    (r#"{"bodies": [1, 2], "joint": "custom"}"#, "joints[0].joint.custom", "without a constraint"),
     (r#"{"joint": "filter"}"#, "joints[0]", "missing field `bodies`"),
     (r#"{"bodies": ["a", "b"]}"#, "joints[0]", "missing field `joint`"),
     (r#"{"bodies": ["a"], "joint": "filter"}"#, "joints[0].bodies", "length"),

@@ -107,39 +107,50 @@ impl Custom {
     /// Compares J with central differences of C.
     ///
     /// # Errors
-    /// [`Error::Invalid`] with the entry that differs most, [`Error::Joint`] if the user's code fails.
+    /// [`Error::Invalid`] with the first entry that differs, [`Error::Joint`] if the user's code fails.
     pub fn check(&self, poses: &[Pose; 2], size: Real) -> Result<()> {
         let (rows, count) = self.evaluate(poses);
         self.take_fault()?;
+        let steps = [size, size, 1.0].map(|unit| STEP * unit);
+        let mut found = [CustomRow::default(); 3];
         for side in 0..2 {
-            for axis in 0..3 {
-                let step = STEP * if axis == 2 { 1.0 } else { size };
-                let at = |sign: Real| {
+            for (axis, step) in steps.into_iter().enumerate() {
+                let at = |offset: Real| {
                     let mut moved = *poses;
                     match axis {
-                        0 => moved[side].position.x += sign * step,
-                        1 => moved[side].position.y += sign * step,
-                        _ => moved[side].angle += sign * step,
+                        0 => moved[side].position.x += offset,
+                        1 => moved[side].position.y += offset,
+                        _ => moved[side].angle += offset,
                     }
                     self.evaluate(&moved).0
                 };
-                let (after, before) = (at(1.0), at(-1.0));
+                let (after, before) = (at(step), at(-step));
                 self.take_fault()?;
-                for k in 0..count {
-                    let by_difference = (after[k].position - before[k].position) / (2.0 * step);
-                    let given = rows[k].jacobian[side][axis];
-                    let scale =
-                        given.abs().max(by_difference.abs()) + rows[k].position.abs() / step;
-                    if (given - by_difference).abs() > 1e-4 * scale.max(Real::MIN_POSITIVE) {
-                        let (body, name) = (["A", "B"][side], ["x", "y", "angle"][axis]);
-                        let what = format!("∂C{k}/∂{name} of {body} in the joint {self:?}");
-                        return Err(Error::invalid(
-                            what,
-                            given,
-                            format!("what differences of C give, about {by_difference:.6}"),
-                        ));
-                    }
+                for (k, row) in found.iter_mut().enumerate() {
+                    let change = after[k].position - before[k].position;
+                    row.jacobian[side][axis] = change / (2.0 * step);
                 }
+            }
+        }
+        (0..count).try_for_each(|k| self.compare(k, [&rows[k], &found[k]], steps))
+    }
+
+    /// An error unless row k is that which differences give, to 1e-4 of the most that a step along any coordinate changes.
+    fn compare(&self, k: usize, [given, found]: [&CustomRow; 2], steps: [Real; 3]) -> Result<()> {
+        let entries = || (0..2).flat_map(|side| (0..3).map(move |axis| (side, axis)));
+        let change =
+            |row: &CustomRow, (side, axis): (usize, usize)| row.jacobian[side][axis] * steps[axis];
+        let most = entries()
+            .map(|entry| change(given, entry).abs().max(change(found, entry).abs()))
+            .fold(0.0, Real::max);
+        for (side, axis) in entries() {
+            let entry = (side, axis);
+            if (change(given, entry) - change(found, entry)).abs() > 1e-4 * most {
+                let (body, name) = (["A", "B"][side], ["x", "y", "angle"][axis]);
+                let what = format!("∂C{k}/∂{name} of {body} in the joint {self:?}");
+                let by_difference = found.jacobian[side][axis];
+                let allowed = format!("what differences of C give, about {by_difference:.6}");
+                return Err(Error::invalid(what, given.jacobian[side][axis], allowed));
             }
         }
         Ok(())

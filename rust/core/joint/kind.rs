@@ -187,7 +187,8 @@ pub enum JointKind {
     },
     /// Nothing but that the two bodies do not touch.
     Filter,
-    /// Rows of the user's own code: see [`Constraint`](super::Constraint).
+    /// Rows of the user's own code: see [`Constraint`](super::Constraint). No file can hold it.
+    #[schemars(skip)]
     Custom,
 }
 
