@@ -1637,7 +1637,12 @@ class Stepper:
 class Snapshot:
     """A world as it was at one moment: to go back to, to keep, to send. Continues bit for bit."""
 
-    def __new__(cls, data: bytes, laws: Sequence[tuple[Any, ...]] = ...) -> Snapshot: ...
+    def __new__(
+        cls,
+        data: bytes,
+        laws: Sequence[tuple[Any, ...]] = ...,
+        rules: Sequence[tuple[Any, ...]] = ...,
+    ) -> Snapshot: ...
     @property
     def time(self) -> float:
         """World time (s)."""
