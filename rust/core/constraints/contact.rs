@@ -25,6 +25,12 @@ pub struct Memory {
 impl Memory {
     /// Of a contact that is new.
     pub const NEW: Self = Self { impulse: [0.0; 3], rolling: 0.0, sliding: false };
+
+    /// For a substep this many times as long: the same forces.
+    #[must_use]
+    pub fn scaled(self, by: Real) -> Self {
+        Self { impulse: self.impulse.map(|p| p * by), rolling: self.rolling * by, ..self }
+    }
 }
 
 /// What two surfaces make of their values together.

@@ -7,6 +7,7 @@ pub mod file;
 mod friction;
 mod gauge;
 mod impact;
+mod joints;
 mod matter;
 mod newton;
 mod orbits;
@@ -62,7 +63,7 @@ pub struct Motion {
     pub length: Real,
     /// Largest error allowed at the fixed step.
     pub fixed: Real,
-    /// What is asked with a tolerance; none where no run with contacts can be held to one yet.
+    /// What is asked with a tolerance; none where no run with contacts or joints can be held to one yet.
     pub toleranced: Option<Toleranced>,
     /// What is judged on it.
     pub judged: Judged,
@@ -84,7 +85,7 @@ pub enum Judged {
     AllMethods,
     /// The engine as it comes alone: one step is the whole run.
     AsItComes,
-    /// The engine as it comes: bodies that touch are moved by the contact step, whatever the method.
+    /// The engine as it comes: bodies that touch or are joined are moved by the contact step, whatever the method.
     Contact {
         /// Its order, 2, is measured. Not where the motion has impacts, or kinks that fall inside a substep.
         order: bool,
@@ -137,12 +138,38 @@ pub static CATALOGUE: &[&Scene] = &[
     &drag::COAST_IN_ONE_STEP,
     &drag::SILHOUETTE,
     &rotation::SPIN_DECAY,
+    &joints::SOFT,
+    &joints::STIFF,
+    &joints::TWO_MASSES,
+    &joints::POINT,
+    &joints::ROD,
+    &joints::DOUBLE,
     &orbits::KEPLER,
     &orbits::CIRCLE,
     &rotation::FREE_SPIN,
+    &joints::CHAIN_SWING,
     &rotation::VARYING_TORQUE,
+    &joints::UPRIGHT,
     &matter::POLYGONS,
     &reversal::THREE_BODIES,
+    &joints::CATENARY,
+    &joints::LOADED_CHAIN,
+    &joints::GRAB,
+    &joints::MINUTE,
+    &joints::LONG,
+    &joints::ANGLE,
+    &joints::SUSPENSION,
+    &joints::ATWOOD,
+    &joints::GEARS,
+    &joints::RACK,
+    &joints::SLIDER,
+    &joints::MOTOR,
+    &joints::RATCHET,
+    &joints::FRICTION,
+    &joints::ROPE,
+    &joints::BEAM,
+    &joints::BOUNDED_GRAB,
+    &joints::PLATFORM,
     &impact::DROPS,
     &impact::ELASTIC_BALL,
     &impact::HEAD_ON,
@@ -169,6 +196,8 @@ pub static CATALOGUE: &[&Scene] = &[
     &stacks::TEN,
     &stacks::TWENTY,
     &stacks::PYRAMID,
+    &joints::RATIOS,
+    &joints::STIFFNESS,
     &extremes::GRAVITY,
     &extremes::SIZES,
     &extremes::SLIVERS,

@@ -158,6 +158,12 @@ impl Anchors {
         [self.along(vec2(1.0, 0.0), MEAN), self.along(vec2(0.0, 1.0), MEAN)]
     }
 
+    /// Both directions of a point that may be far from where it is drawn to: the forces act at B's anchor, so that B gets no
+    /// torque from the distance.
+    fn carried(&self) -> [Row; 2] {
+        [self.axial(vec2(1.0, 0.0)), self.axial(vec2(0.0, 1.0))]
+    }
+
     /// Along a direction that is fixed to A.
     fn axial(&self, d: Vec2) -> Row {
         self.along(d, [1.0, 0.0])
@@ -272,9 +278,7 @@ impl Law {
             JointKind::Friction { max_force, max_torque } => {
                 let rub = |row: Row, bound| row.acting(Action::Drive(0.0)).within(Some(bound));
                 // As A's ground moves where B's anchor is, however far that has come from A's.
-                for d in [vec2(1.0, 0.0), vec2(0.0, 1.0)] {
-                    out.push(rub(at.axial(d), *max_force));
-                }
+                at.carried().into_iter().for_each(|row| out.push(rub(row, *max_force)));
                 out.push(rub(angle_row(None), *max_torque));
                 out.disc = true;
             }
@@ -304,7 +308,7 @@ impl Law {
 
     /// A point that is carried with a bounded force.
     fn carry(&self, at: &Anchors, (hold, bound): (&Hold, Option<Real>), out: &mut Rows) {
-        for (k, row) in at.point().into_iter().enumerate() {
+        for (k, row) in at.carried().into_iter().enumerate() {
             out.push(held(hold, row, self, k).within(bound));
         }
         out.disc = bound.is_some();

@@ -38,8 +38,9 @@ pub struct Gains {
     pub after: Real,
 }
 
-/// The largest phase of a step: what swings faster is slowed down to it. Beyond π there is no such motion.
-const MOST_PHASE: Real = 0.9 * PI;
+/// The largest phase of a step: what swings faster is slowed down to it. Beyond π there is no such motion, and before it the
+/// middle of a step is already 1/cos(φ/2) times as far out as the swing, here twice: it must not pass the anchor.
+const MOST_PHASE: Real = 2.0 / 3.0 * PI;
 
 impl Gains {
     /// Of a spring among others, for a step of length h.

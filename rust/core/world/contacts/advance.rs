@@ -140,10 +140,7 @@ impl World {
         }
         self.state.contacts.scale_impulses(span.h());
         for k in 0..self.scratch.contacts.islands.len() {
-            self.gather(k, span);
-            let outcome = self.step_group(span);
-            self.keep_solver();
-            self.scatter(outcome?, span);
+            self.advance_group(k, span)?;
         }
         Ok(())
     }
@@ -155,7 +152,7 @@ impl World {
         }
     }
 
-    fn keep_solver(&mut self) {
+    pub(super) fn keep_solver(&mut self) {
         let ContactScratch { group, solvers, .. } = &mut self.scratch.contacts;
         if let Some(first) = group.ties.list.first() {
             solvers.insert(first.place, std::mem::take(&mut group.ties.solver));
@@ -163,7 +160,7 @@ impl World {
     }
 
     /// Fills the group with the bodies, contacts and joints of island k.
-    fn gather(&mut self, k: usize, span: Span) {
+    pub(super) fn gather(&mut self, k: usize, span: Span) {
         let Self { state, scratch, plan, .. } = self;
         let State { bodies, settings, contacts, joints, .. } = state;
         let steady = &scratch.steady;
@@ -214,14 +211,14 @@ impl World {
             let answer = answers.get(place as usize);
             let (touch, link) = link_of((bodies, contacts), (place, pair), answer, span);
             group.driven |= touch.tangent_speed != 0.0;
-            let memory = &contacts.patches[place as usize].memory;
-            let block = Block::new(slots, &link.manifold, &touch, memory);
+            let memory = contacts.patches[place as usize].memory.scaled(h / contacts.substep);
+            let block = Block::new(slots, &link.manifold, &touch, &memory);
             group.add_contact(block, link);
         }
         Self::take_solver(group, solvers);
     }
 
-    fn step_group(&mut self, span: Span) -> Result<Outcome> {
+    pub(super) fn step_group(&mut self, span: Span) -> Result<Outcome> {
         let Self { state, scratch, plan, fields, report, .. } = self;
         let settings = contact_step::Settings {
             law: state.settings.impact_law,
@@ -261,7 +258,7 @@ impl World {
     }
 
     /// Brings the group's motion and impulses back to the columns.
-    fn scatter(&mut self, outcome: Outcome, span: Span) {
+    pub(super) fn scatter(&mut self, outcome: Outcome, span: Span) {
         let Self { state, scratch, report, events, plan, .. } = self;
         // Fields book the work of steady forces with their own, and no one else moves the bodies then.
         let together = plan.as_ref().is_some_and(|plan| plan.together > 0);
@@ -285,7 +282,8 @@ impl World {
             }
         }
         for (block, link) in group.blocks.iter().zip(&group.links) {
-            contacts.patches[link.place as usize].memory = block.memory();
+            let memory = block.memory().scaled(contacts.substep / span.h());
+            contacts.patches[link.place as usize].memory = memory;
         }
         *ledger += outcome.ledger;
         scratch.contacts.thrown = scratch.contacts.thrown.max(outcome.thrown);

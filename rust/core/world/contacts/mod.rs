@@ -6,6 +6,7 @@ mod backup;
 mod coulomb;
 mod detect;
 mod events;
+mod finer;
 mod hits;
 mod hooks;
 mod near;

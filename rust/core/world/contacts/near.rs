@@ -98,8 +98,7 @@ impl Contacts {
         if self.substep > 0.0 && self.substep != h {
             let scale = h / self.substep;
             for Patch { memory, .. } in &mut self.patches {
-                memory.impulse.iter_mut().for_each(|impulse| *impulse *= scale);
-                memory.rolling *= scale;
+                *memory = memory.scaled(scale);
             }
         }
         self.substep = h;

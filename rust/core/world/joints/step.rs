@@ -55,6 +55,7 @@ pub(in crate::world) fn tie(
     let impulses = joint.impulses.map(|impulse| impulse * scale);
     let mut tie = Tie::new(law_of(bodies, joint), slots, place, impulses);
     (tie.origin, tie.apart) = (centers[0], centers[1] - centers[0]);
+    tie.load = joint.reaction.force;
     tie
 }
 

@@ -5,7 +5,7 @@
 //! changes. After a few rounds only the first row that is wrong changes, which ends for any bounds that are apart for
 //! themselves (Murty, "Linear Complementarity", 1988, ch. 4: least index).
 
-use super::prepare::push;
+use super::prepare::{push, response};
 use super::{Tie, Ties};
 use crate::constraints::Velocity;
 use crate::constraints::joint;
@@ -52,14 +52,27 @@ impl Row {
             return;
         }
         // Within rounding of a bound it was pinned there.
-        let near = |bound: Real| (self.impulse - bound).abs() <= 1e-9 * bound.abs();
-        if low < high && bound_is_set(low) && near(low) || bound_is_set(high) && near(high) {
-            self.state = State::Pinned;
+        let near = |bound: &Real| (self.impulse - bound).abs() <= 1e-9 * bound.abs();
+        let bound = [low, high].into_iter().filter(|bound| bound_is_set(*bound)).find(near);
+        if let Some(bound) = bound {
+            (self.impulse, self.state) = (bound, State::Pinned);
+            return;
         }
         self.impulse = self.impulse.clamp(low, high);
         if self.state == State::Pinned && low == 0.0 {
             self.impulse = 0.0;
         }
+    }
+}
+
+/// Begins two rows with one bound on both together: pinned both or none.
+pub fn start_disc(rows: &mut [Row]) {
+    let [.., bound] = rows[0].bounds;
+    let length = rows[0].impulse.hypot(rows[1].impulse);
+    let pinned = bound_is_set(bound) && length >= bound * (1.0 - 1e-9);
+    for row in rows.iter_mut().take(2).filter(|row| row.state != State::Off) {
+        row.state = if pinned { State::Pinned } else { State::Solved };
+        row.impulse *= if pinned { bound / length } else { 1.0 };
     }
 }
 
@@ -264,11 +277,7 @@ fn turn_disc(tie: &Tie, rows: &mut [Row], velocities: &mut [Velocity], bound: Re
     let mut to = [0.0; 2];
     for (k, to) in to.iter_mut().enumerate() {
         let (row, now) = (&rows[k], &tie.middle.rows[k]);
-        let response: Real = (tie.slots.iter().enumerate())
-            .filter_map(|(side, slot)| {
-                Some(now.response(side, velocities[(*slot)? as usize].inverse()))
-            })
-            .sum();
+        let response = response(tie, now, velocities);
         *to = row.impulse + missing(row, now, [&a, &b]) / (response + row.compliance);
     }
     let length = to[0].hypot(to[1]);

@@ -8,10 +8,12 @@
 mod active;
 mod close;
 mod impact;
+mod load;
 mod prepare;
 
 pub use active::solve;
 pub use close::close;
+pub use load::{take_loads, turning_rate};
 pub use prepare::prepare;
 
 use super::Group;
@@ -41,6 +43,8 @@ pub struct Tie {
     pub impulses: [Real; ROWS],
     /// What B got in the step so far: impulse (N·s), and its moment about B's anchor (N·m·s).
     pub given: Wrench,
+    /// Force that it bore in the last step (N).
+    pub load: Vec2,
     /// Its rows in the middle of the substep, and at its end, which is the start of the next.
     middle: Rows,
     end: Rows,
@@ -61,6 +65,7 @@ impl Tie {
             place,
             impulses,
             given: Wrench::ZERO,
+            load: vec2(0.0, 0.0),
             middle: Rows::NONE,
             end: Rows::NONE,
             first_row: 0,
@@ -205,6 +210,8 @@ pub fn book(group: &mut Group, h: Real, ledger: &mut Ledger) -> Real {
             ledger.work += given;
             match now.action {
                 Action::Drive(speed) if speed != 0.0 => ledger.work += row.work,
+                // What draws with a bounded force is driven by whoever moves it.
+                Action::Hold if now.bound < Real::INFINITY => ledger.work += row.work,
                 Action::Hold | Action::Limit | Action::Drive(_) => ledger.dissipated -= row.work,
                 Action::Spring(_) | Action::Off => {}
             }

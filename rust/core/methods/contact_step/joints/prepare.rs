@@ -1,10 +1,10 @@
 //! What each row asks for in a substep.
 
-use super::active::{Row, State};
+use super::active::{Row, State, start_disc};
 use super::{Tie, Ties};
 use crate::constraints::Velocity;
 use crate::constraints::joint::{self, Action, Gains, Rates};
-use crate::math::{Real, Twist};
+use crate::math::{Real, Twist, hypot};
 use crate::methods::contact_step::Group;
 
 /// Takes targets, compliances and bounds of all rows, and gives the bodies the impulses of the last substep.
@@ -28,6 +28,9 @@ pub fn prepare(group: &mut Group, h: Real) {
             let curve = start.velocity(twists) - along;
             match now.action {
                 Action::Off => row.state = State::Off,
+                Action::Hold if now.bound < Real::INFINITY => {
+                    row.wanted = curve - way_back(tie, k, velocities, h);
+                }
                 Action::Hold => row.wanted = curve,
                 Action::Drive(speed) => row.wanted = speed,
                 Action::Limit => limit(row, now, (curve, start), h),
@@ -45,6 +48,10 @@ pub fn prepare(group: &mut Group, h: Real) {
             }
             row.start();
         }
+        if tie.middle.disc {
+            start_disc(&mut rows[tie.first_row..]);
+        }
+        stop_motors(tie, &mut rows[tie.first_row..]);
     }
     warm_start(ties, velocities);
 }
@@ -64,6 +71,54 @@ fn limit(row: &mut Row, now: &joint::Row, (curve, start): (Real, &joint::Row), h
     let reached = now.position <= 0.0 || (loaded && now.position <= bends);
     row.wanted = if reached { curve } else { -now.position / h };
     row.state = if loaded || reached { State::Solved } else { State::Pinned };
+}
+
+/// A motor that would drive its coordinate beyond a limit drives it to the limit: the rows must not fight over it.
+fn stop_motors(tie: &Tie, rows: &mut [Row]) {
+    let middle = tie.middle.as_slice();
+    for (k, motor) in middle.iter().enumerate() {
+        if !matches!(motor.action, Action::Drive(_)) || rows[k].state == State::Pinned {
+            continue;
+        }
+        for (l, limit) in middle.iter().enumerate() {
+            let (Action::Limit, Some(side)) = (limit.action, same_line(motor, limit)) else {
+                continue;
+            };
+            rows[k].wanted = side * (side * rows[k].wanted).max(rows[l].wanted);
+            (rows[l].impulse, rows[l].state) = (0.0, State::Pinned);
+        }
+    }
+}
+
+/// 1 of rows that are the same, −1 where they run against each other.
+fn same_line(a: &joint::Row, b: &joint::Row) -> Option<Real> {
+    let reversed = b.jacobian.map(|side| side.map(|x| -x));
+    if a.jacobian == b.jacobian { Some(1.0) } else { (a.jacobian == reversed).then_some(-1.0) }
+}
+
+/// Speed (m/s) along row k of a hold with a bounded force that is open: what closes it in a substep, and no more than half
+/// of the bound can brake on the way, so that it arrives and does not swing past.
+fn way_back(tie: &Tie, k: usize, velocities: &[Velocity], h: Real) -> Real {
+    let rows = tie.middle.as_slice();
+    let now = &rows[k];
+    let open = if tie.middle.disc && k < 2 {
+        hypot(rows[0].position, rows[1].position)
+    } else {
+        now.position.abs()
+    };
+    if open == 0.0 {
+        return 0.0;
+    }
+    let braking = 0.5 * now.bound * response(tie, now, velocities);
+    now.position * (1.0 / h).min((2.0 * braking / open).sqrt())
+}
+
+/// JM⁻¹Jᵀ of a row (1/kg, or 1/(kg·m²)).
+pub fn response(tie: &Tie, row: &joint::Row, velocities: &[Velocity]) -> Real {
+    let of = |side: usize| {
+        tie.slots[side].map_or(0.0, |slot| row.response(side, velocities[slot as usize].inverse()))
+    };
+    of(0) + of(1)
 }
 
 /// Whether two rows run against each other.
