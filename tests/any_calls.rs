@@ -7,6 +7,7 @@ mod worlds;
 
 use culbuto::body::{BodyKind, Locks};
 use culbuto::forces::Air;
+use culbuto::joint::{Hold, JointDef, JointHandle, JointKind, Motor, Spring, Travel};
 use culbuto::math::{Real, Twist, Vec2, vec2};
 use culbuto::shapes::Shape;
 use culbuto::world::{BodyMut, Snapshot};
@@ -20,6 +21,9 @@ enum Action {
     Add { name: u8, place: Vec2, mass: Real },
     Remove(prop::sample::Index),
     Edit(prop::sample::Index, Edit),
+    Join(prop::sample::Index, Option<prop::sample::Index>, JointKind, bool),
+    Part(prop::sample::Index),
+    Change(prop::sample::Index, JointKind, Real),
     Air(Real),
     Field(bool),
     Step(Real),
@@ -69,6 +73,45 @@ fn edits() -> impl Strategy<Value = Edit> {
     ]
 }
 
+/// Kinds of joints, with numbers good and bad.
+fn kinds() -> impl Strategy<Value = JointKind> {
+    let hold = || {
+        prop_oneof![
+            Just(Hold::Rigid),
+            Just(Hold::Free),
+            (positive(), positive()).prop_map(|(hertz, damping_ratio)| Hold::Spring(
+                Spring::Frequency { hertz, damping_ratio }
+            )),
+        ]
+    };
+    let motor = (number(), positive()).prop_map(|(speed, max)| Motor { speed, max: Some(max) });
+    let travel = (prop::option::of(motor), prop::option::of((number(), number()))).prop_map(
+        |(motor, limits)| Travel {
+            motor,
+            limits: limits.map(|(low, high)| [low, high]),
+            ..Travel::default()
+        },
+    );
+    prop_oneof![
+        (hold(), positive()).prop_map(|(hold, max)| JointKind::Distance {
+            length: None,
+            hold,
+            min: 0.0,
+            max: Some(max),
+        }),
+        travel.prop_map(|travel| JointKind::Revolute { angle: None, travel }),
+        (hold(), hold()).prop_map(|(linear, angular)| JointKind::Weld {
+            angle: None,
+            linear,
+            angular
+        }),
+        (hold(), positive()).prop_map(|(hold, max)| JointKind::Grab { hold, max_force: Some(max) }),
+        number().prop_map(|ratio| JointKind::Gear { ratio, phase: None }),
+        number().prop_map(|step| JointKind::Ratchet { step, phase: 0.1 }),
+        Just(JointKind::Filter),
+    ]
+}
+
 fn actions() -> impl Strategy<Value = Action> {
     let which = any::<prop::sample::Index>;
     let add = (any::<u8>(), vector(), positive());
@@ -76,6 +119,10 @@ fn actions() -> impl Strategy<Value = Action> {
         4 => add.prop_map(|(name, place, mass)| Action::Add { name, place, mass }),
         2 => which().prop_map(Action::Remove),
         7 => (which(), edits()).prop_map(|(i, edit)| Action::Edit(i, edit)),
+        3 => (which(), prop::option::of(which()), kinds(), any::<bool>())
+            .prop_map(|(a, b, kind, touch)| Action::Join(a, b, kind, touch)),
+        1 => which().prop_map(Action::Part),
+        2 => (which(), kinds(), positive()).prop_map(|(i, kind, most)| Action::Change(i, kind, most)),
         1 => positive().prop_map(Action::Air),
         1 => any::<bool>().prop_map(Action::Field),
         3 => number().prop_map(|x| Action::Step(x / 50.0)),
@@ -90,7 +137,17 @@ fn actions() -> impl Strategy<Value = Action> {
 struct Model {
     bodies: Vec<(BodyHandle, String)>,
     gone: Vec<BodyHandle>,
+    joints: Vec<(JointHandle, [Option<BodyHandle>; 2])>,
     time: Real,
+}
+
+impl Model {
+    /// Those that broke in the last call are no longer there.
+    fn forget_broken(&mut self, world: &World) {
+        for broken in world.broken_joints() {
+            self.joints.retain(|joint| joint.0 != broken.joint);
+        }
+    }
 }
 
 fn edit_body(edit: &Edit, mut body: BodyMut<'_>) -> Result<(), Error> {
@@ -105,14 +162,17 @@ fn edit_body(edit: &Edit, mut body: BodyMut<'_>) -> Result<(), Error> {
     }
 }
 
-/// Does it, to the model too where the world agrees; an action on a body is none in an empty world.
+fn body_of(model: &Model, i: &prop::sample::Index) -> Option<BodyHandle> {
+    (!model.bodies.is_empty()).then(|| i.get(&model.bodies).0)
+}
+
+/// Does it, to the model too where the world agrees; an action on a body or a joint is none where there is none.
 fn perform(
     action: &Action,
     world: &mut World,
     model: &mut Model,
     kept: &mut Option<(Snapshot, Model)>,
 ) -> Result<(), Error> {
-    let body = |i: &prop::sample::Index| (!model.bodies.is_empty()).then(|| i.get(&model.bodies).0);
     match action {
         Action::Add { name, place, mass } => {
             let name = format!("body {name}");
@@ -126,15 +186,39 @@ fn perform(
             model.bodies.push((world.add_body(def)?, name));
         }
         Action::Remove(i) => {
-            if let Some(body) = body(i) {
+            if let Some(body) = body_of(model, i) {
                 world.remove_body(body)?;
                 let place = model.bodies.iter().position(|entry| entry.0 == body).unwrap();
                 model.bodies.swap_remove(place);
                 model.gone.push(body);
+                model.joints.retain(|joint| !joint.1.contains(&Some(body)));
+            }
+        }
+        Action::Join(a, b, kind, collide_connected) => {
+            if let Some(body) = body_of(model, a) {
+                let bodies = [b.as_ref().and_then(|b| body_of(model, b)), Some(body)];
+                let def = JointDef::new(bodies[0], bodies[1], *kind);
+                let def = JointDef { collide_connected: *collide_connected, ..def };
+                model.joints.push((world.add_joint(def)?, bodies));
+            }
+        }
+        Action::Part(i) => {
+            if !model.joints.is_empty() {
+                let joint = i.get(&model.joints).0;
+                world.remove_joint(joint)?;
+                model.joints.retain(|own| own.0 != joint);
+            }
+        }
+        Action::Change(i, kind, most) => {
+            if !model.joints.is_empty() {
+                world.edit_joint(i.get(&model.joints).0, |def| {
+                    def.kind = *kind;
+                    def.breaking_force = Some(*most);
+                })?;
             }
         }
         Action::Edit(i, edit) => {
-            if let Some(body) = body(i) {
+            if let Some(body) = body_of(model, i) {
                 edit_body(edit, world.body_mut(body)?)?;
             }
         }
@@ -147,10 +231,12 @@ fn perform(
         }
         Action::Step(dt) => {
             world.step(*dt)?;
+            model.forget_broken(world);
             model.time += dt;
         }
         Action::Advance(duration) => {
             world.advance(*duration, 1e-6)?;
+            model.forget_broken(world);
             model.time += duration;
         }
         Action::Keep => *kept = Some((world.snapshot(), model.clone())),
@@ -178,6 +264,15 @@ fn agree(world: &World, model: &Model) -> Result<(), TestCaseError> {
         if body.info().def.kind == BodyKind::Static {
             prop_assert_eq!(twist, Twist::ZERO);
         }
+    }
+    let mut joints: Vec<_> = world.joint_handles().to_vec();
+    let mut known: Vec<_> = model.joints.iter().map(|joint| joint.0).collect();
+    joints.sort_by_key(|joint| format!("{joint:?}"));
+    known.sort_by_key(|joint| format!("{joint:?}"));
+    prop_assert_eq!(joints, known);
+    for joint in world.joint_handles() {
+        let joint = world.joint(*joint).unwrap();
+        prop_assert!(joint.reaction().force.norm().is_finite() && joint.gap() >= 0.0);
     }
     for body in &model.gone {
         prop_assert!(world.body(*body).is_err());

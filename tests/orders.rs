@@ -8,6 +8,7 @@ mod worlds;
 use std::f64::consts::TAU;
 
 use culbuto::forces::{Air, Central, Oscillating};
+use culbuto::joint::JointDef;
 use culbuto::math::{Real, Vec2, vec2};
 use culbuto::methods::REGISTRY;
 use culbuto::shapes::Shape;
@@ -130,6 +131,46 @@ fn orders_hold_for_a_force_that_depends_on_the_time() {
         world
     };
     check_orders(make, 2.0, |world| (world.bodies().poses[0].position.x - exact).abs());
+}
+
+/// Two rods of 1 m and 1 kg on hinges, let go along +x.
+fn double_pendulum(method: &str) -> World {
+    let mut world = world_with(method);
+    world.set_gravity(vec2(0.0, -9.81)).unwrap();
+    let mut before = None;
+    for k in [0.0, 1.0] {
+        let rod = BodyDef { inertia: Some(1.0 / 12.0), ..BodyDef::point(1.0) };
+        let body = world.add_body(BodyDef { position: vec2(k + 0.5, 0.0), ..rod }).unwrap();
+        world.add_joint(JointDef::revolute(before, body).at(vec2(k, 0.0))).unwrap();
+        before = Some(body);
+    }
+    world
+}
+
+/// Angular accelerations of the two by Lagrange's equations in their angles from the lowest point.
+fn double_slope(_: Real, [a, b, u, v]: &[Real; 4]) -> [Real; 4] {
+    let (sin, cos) = (a - b).sin_cos();
+    let (m, n, k) = (4.0 / 3.0, 1.0 / 3.0, 0.5 * cos);
+    let p = -0.5 * sin * v * v - 1.5 * 9.81 * a.sin();
+    let q = 0.5 * sin * u * u - 0.5 * 9.81 * b.sin();
+    let det = m * n - k * k;
+    [*u, *v, (n * p - k * q) / det, (m * q - k * p) / det]
+}
+
+#[test]
+fn the_order_holds_for_joints() {
+    let outer = |time: Real| {
+        let [a, b, ..] = reference(double_slope, [TAU / 4.0, TAU / 4.0, 0.0, 0.0], time, 40_000);
+        vec2(a.sin() + 0.5 * b.sin(), -a.cos() - 0.5 * b.cos())
+    };
+    let known = vec2(-1.298_461_242_98, -0.698_310_920_025);
+    assert_below("S11 at t = 1", (outer(1.0) - known).norm(), 1e-10);
+    let exact = outer(1.0);
+    let off = |world: &World| (world.bodies().poses[1].position - exact).norm();
+    let errors = ladder(|| double_pendulum("leapfrog"), 1.0, off);
+    let measured = finest_order(&errors);
+    println!("double pendulum: order {measured:.3}, finest error {:.1e}", errors[12]);
+    assert!((measured - 2.0).abs() < 0.2, "{measured} of {errors:?}");
 }
 
 #[test]

@@ -138,7 +138,9 @@ impl World {
         if self.scratch.contacts.islands.is_empty() {
             return Ok(());
         }
-        self.state.contacts.scale_impulses(span.h());
+        if self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty()) {
+            self.state.contacts.scale_impulses(span.h());
+        }
         for k in 0..self.scratch.contacts.islands.len() {
             self.advance_group(k, span)?;
         }

@@ -127,26 +127,45 @@ pub(in crate::world) fn notch(angle: Real, step: Real, phase: Real) -> Real {
     phase + floor((angle - phase) / step) * step
 }
 
-/// Springs by frequency get their coefficients from the effective mass 1/(J M⁻¹ Jᵀ) of their rows.
+/// Springs by frequency get their coefficients from the effective mass 1/(J M⁻¹ Jᵀ) of their rows. Those of a point pull alike in
+/// all directions, with the mean of J M⁻¹ Jᵀ, or the motion would depend on how the axes of the world lie.
 fn tune(joint: &mut Joint, bodies: &Bodies, pair: &Pair) {
     let law: Law = law_of(bodies, joint);
-    for (k, row) in law.rows(pair).as_slice().iter().enumerate() {
+    let rows = law.rows(pair);
+    let point = matches!(
+        joint.def.kind,
+        JointKind::Weld { .. } | JointKind::Grab { .. } | JointKind::Motor { .. }
+    );
+    for (k, row) in rows.as_slice().iter().enumerate() {
         let (Action::Spring(_), Some(spring)) = (row.action, joint.def.kind.spring(k)) else {
             continue;
         };
-        let mass = effective_mass(row, bodies, joint);
+        let mass = if point && k < 2 {
+            let [x, y] = [0, 1].map(|k| response(&rows.rows[k], bodies, joint));
+            inverse(0.5 * (x + y))
+        } else {
+            effective_mass(row, bodies, joint)
+        };
         joint.springs[k] = Some(spring.coefficients(mass));
     }
 }
 
 /// 1/(J M⁻¹ Jᵀ) of a row (kg, kg·m²); 0 where nothing gives way.
 pub(super) fn effective_mass(row: &Row, bodies: &Bodies, joint: &Joint) -> Real {
-    let sum: Real = (0..2)
+    inverse(response(row, bodies, joint))
+}
+
+fn inverse(response: Real) -> Real {
+    if response > 0.0 { 1.0 / response } else { 0.0 }
+}
+
+/// J M⁻¹ Jᵀ of a row (1/kg, 1/(kg·m²)).
+fn response(row: &Row, bodies: &Bodies, joint: &Joint) -> Real {
+    (0..2)
         .filter_map(|side| {
             let mass = &bodies.masses[index_of(bodies, joint, side)?];
             let inverse = [mass.inverse.x, mass.inverse.y, mass.inverse_inertia];
             Some(row.response(side, inverse))
         })
-        .sum();
-    if sum > 0.0 { 1.0 / sum } else { 0.0 }
+        .sum()
 }

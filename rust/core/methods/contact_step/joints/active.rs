@@ -5,10 +5,11 @@
 //! changes. After a few rounds only the first row that is wrong changes, which ends for any bounds that are apart for
 //! themselves (Murty, "Linear Complementarity", 1988, ch. 4: least index).
 
-use super::prepare::{push, response};
+use super::motors;
+use super::prepare::{mobility, push};
 use super::{Tie, Ties};
 use crate::constraints::Velocity;
-use crate::constraints::joint;
+use crate::constraints::joint::{self, Action};
 use crate::math::{Real, Twist};
 use crate::solvers::direct;
 
@@ -49,6 +50,10 @@ impl Row {
         let [low, high] = self.bounds;
         if self.state == State::Off {
             self.impulse = 0.0;
+            return;
+        }
+        if low == high {
+            (self.impulse, self.state) = (low, State::Pinned);
             return;
         }
         // Within rounding of a bound it was pinned there.
@@ -100,9 +105,11 @@ pub fn solve(ties: &mut Ties, velocities: &mut [Velocity], sweeps: u32) -> Real 
         let lacked = correct(ties, velocities);
         first = if round == 0 { lacked } else { first };
         if !review(ties, velocities, round >= TOGETHER) && !by_sweeps {
-            break;
+            return first;
         }
     }
+    // Whatever is not settled, nothing is left beyond its bounds.
+    review(ties, velocities, false);
     first
 }
 
@@ -213,7 +220,16 @@ fn review(ties: &mut Ties, velocities: &mut [Velocity], one_by_one: bool) -> boo
             if changed && one_by_one {
                 return true;
             }
-            changed |= review_row(tie, k, &mut rows[tie.first_row + k], velocities);
+            let rows = &mut rows[tie.first_row..];
+            if rows[k].state == State::Pinned && motors::is_stopped(tie, k, rows) {
+                continue;
+            }
+            if review_row(tie, k, &mut rows[k], velocities) {
+                changed = true;
+                if tie.middle.rows[k].action == Action::Limit && rows[k].state == State::Solved {
+                    motors::yield_to(tie, k, rows, velocities);
+                }
+            }
         }
     }
     changed
@@ -232,8 +248,9 @@ fn review_row(tie: &Tie, k: usize, row: &mut Row, velocities: &mut [Velocity]) -
             let [a, b] = twists(velocities, tie);
             let lacks = missing(row, now, [&a, &b]);
             let noise = ROUNDING * (row.wanted.abs() + speed(now, [&a, &b]));
-            let inward =
-                (row.impulse <= low && lacks > noise) || (row.impulse >= high && lacks < -noise);
+            let inward = low < high
+                && ((row.impulse <= low && lacks > noise)
+                    || (row.impulse >= high && lacks < -noise));
             if inward {
                 row.state = State::Solved;
             }
@@ -274,10 +291,12 @@ fn review_disc(tie: &Tie, rows: &mut [Row], velocities: &mut [Velocity]) -> bool
 
 fn turn_disc(tie: &Tie, rows: &mut [Row], velocities: &mut [Velocity], bound: Real) -> bool {
     let [a, b] = twists(velocities, tie);
+    // The larger eigenvalue: no direction overshoots, and none is preferred.
+    let [xx, yy, xy] = mobility(tie, velocities);
+    let response = 0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy);
     let mut to = [0.0; 2];
     for (k, to) in to.iter_mut().enumerate() {
         let (row, now) = (&rows[k], &tie.middle.rows[k]);
-        let response = response(tie, now, velocities);
         *to = row.impulse + missing(row, now, [&a, &b]) / (response + row.compliance);
     }
     let length = to[0].hypot(to[1]);

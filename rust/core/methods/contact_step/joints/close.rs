@@ -4,7 +4,7 @@
 //! the end would do together; what the two do to the velocities, M⁻¹(J − J₁)ᵀμ with J₁ at the end, is done as well. Each of them
 //! keeps momentum and angular momentum, so the whole does, to rounding.
 
-use super::active::{State, fill};
+use super::active::fill;
 use super::{Bodies, Ties};
 use crate::constraints::joint::{self, Action};
 use crate::math::{Real, Twist};
@@ -27,22 +27,34 @@ const MOST_TURN: Real = 0.3;
 pub fn close(group: &mut Group, h: Real) -> Real {
     look(group);
     let mut total: Vec<Triple> = Vec::new();
-    let mut work = 0.0;
-    for step in 0..STEPS {
+    let (mut work, mut shifted) = (0.0, 0.0);
+    for _ in 0..STEPS {
         if !open(group) {
             break;
         }
-        if step == 0 {
-            total.resize(group.ties.links.len(), [0.0; 3]);
-            prepare(group);
-        }
-        work += shift(group, &mut total);
+        total.resize(group.ties.links.len(), [0.0; 3]);
+        prepare(group);
+        let (against, size) = shift(group, &mut total);
+        work += against;
+        shifted += size;
         look(group);
     }
-    if !total.is_empty() {
+    if shifted > 0.0 && shifted <= moved(group, h) {
         work += turn_velocities(group, &total, 0.5 * h);
     }
     work
+}
+
+/// How far the bodies moved in the substep, or would have without joints, in the measure of their masses: h(Σ mv² + Iω²)^½.
+///
+/// What a joint opens by itself is closed by a part of that. Whoever puts a body or a target elsewhere opens more: then the
+/// bodies are only put where they belong, since no velocities follow from it.
+fn moved(group: &Group, h: Real) -> Real {
+    let Group { ties, velocities, masses, .. } = group;
+    let squares = ties.before.iter().zip(velocities).zip(masses).map(|((before, body), mass)| {
+        mass.work(before, before).max(mass.work(&body.twist, &body.twist))
+    });
+    h * squares.sum::<Real>().sqrt()
 }
 
 /// Rows where the bodies are now.
@@ -81,7 +93,7 @@ fn open(group: &Group) -> bool {
 /// Hands the solver the rows that hold positions.
 fn prepare(group: &mut Group) {
     let Group { ties, velocities, .. } = group;
-    let Ties { list, rows, nodes, links, solver, prepared, .. } = ties;
+    let Ties { list, rows, nodes, links, solver, prepared, closing, .. } = ties;
     let holds = |tie: &super::Tie, k: usize| {
         let (middle, end) = (&tie.middle.rows[k], &tie.end.rows[k]);
         let impulse = rows[tie.first_row + k].impulse;
@@ -91,21 +103,24 @@ fn prepare(group: &mut Group) {
             _ => false,
         }
     };
-    let velocity_rows = |tie: &super::Tie, k: usize| rows[tie.first_row + k].state == State::Solved;
-    let same = prepared.is_some()
-        && list
-            .iter()
-            .all(|tie| (0..tie.middle.count).all(|k| holds(tie, k) == velocity_rows(tie, k)));
-    if same {
+    // Rows that turn out to be passed while others are closed join them.
+    closing.clear();
+    closing.resize(links.len(), [false; 3]);
+    for tie in &*list {
+        for k in 0..tie.middle.count {
+            closing[tie.first_node + k / 3][k % 3] = holds(tie, k);
+        }
+    }
+    if prepared.as_ref() == Some(&*closing) {
         return;
     }
     fill(list, nodes, links.len(), |tie, k| holds(tie, k).then_some(0.0));
     solver.prepare(velocities, links, nodes);
-    *prepared = None;
+    prepared.get_or_insert_default().clone_from(closing);
 }
 
-/// One Newton step; returns the work it takes (J).
-fn shift(group: &mut Group, total: &mut [Triple]) -> Real {
+/// One Newton step; returns the work it takes (J), and how far it moves the bodies, as [`moved`] has it.
+fn shift(group: &mut Group, total: &mut [Triple]) -> (Real, Real) {
     let Group { ties, places, masses, .. } = group;
     let Ties { list, rows, solver, wanted, solved, change, links, .. } = ties;
     wanted.clear();
@@ -127,7 +142,7 @@ fn shift(group: &mut Group, total: &mut [Triple]) -> Real {
     for (sum, own) in total.iter_mut().zip(&*solved) {
         sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += part * own);
     }
-    let mut work = 0.0;
+    let (mut work, mut square) = (0.0, 0.0);
     for ((place, change), mass) in places.iter_mut().zip(&*change).zip(&*masses) {
         if *change == Twist::ZERO {
             continue;
@@ -136,8 +151,9 @@ fn shift(group: &mut Group, total: &mut [Triple]) -> Real {
         place.way += way.linear;
         place.rotate(way.angular);
         work -= mass.work(&way, &place.acceleration);
+        square += mass.work(&way, &way);
     }
-    work
+    (work, square.sqrt())
 }
 
 /// The velocities' share of the shift; returns the energy it gives (J).

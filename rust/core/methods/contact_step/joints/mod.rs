@@ -9,6 +9,7 @@ mod active;
 mod close;
 mod impact;
 mod load;
+mod motors;
 mod prepare;
 
 pub use active::solve;
@@ -86,6 +87,8 @@ pub struct Ties {
     nodes: Vec<direct::Rows>,
     /// Rows that the solver has; nothing where they are none of the present geometry.
     prepared: Option<Vec<[bool; 3]>>,
+    /// Rows whose gaps are closed.
+    closing: Vec<[bool; 3]>,
     /// Velocities at the start of the substep.
     before: Vec<Twist>,
     /// Sums over the springs of each slot.

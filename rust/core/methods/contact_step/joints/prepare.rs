@@ -51,7 +51,7 @@ pub fn prepare(group: &mut Group, h: Real) {
         if tie.middle.disc {
             start_disc(&mut rows[tie.first_row..]);
         }
-        stop_motors(tie, &mut rows[tie.first_row..]);
+        super::motors::start(tie, &mut rows[tie.first_row..]);
     }
     warm_start(ties, velocities);
 }
@@ -73,50 +73,37 @@ fn limit(row: &mut Row, now: &joint::Row, (curve, start): (Real, &joint::Row), h
     row.state = if loaded || reached { State::Solved } else { State::Pinned };
 }
 
-/// A motor that would drive its coordinate beyond a limit drives it to the limit: the rows must not fight over it.
-fn stop_motors(tie: &Tie, rows: &mut [Row]) {
-    let middle = tie.middle.as_slice();
-    for (k, motor) in middle.iter().enumerate() {
-        if !matches!(motor.action, Action::Drive(_)) || rows[k].state == State::Pinned {
-            continue;
-        }
-        for (l, limit) in middle.iter().enumerate() {
-            let (Action::Limit, Some(side)) = (limit.action, same_line(motor, limit)) else {
-                continue;
-            };
-            rows[k].wanted = side * (side * rows[k].wanted).max(rows[l].wanted);
-            (rows[l].impulse, rows[l].state) = (0.0, State::Pinned);
-        }
-    }
-}
-
-/// 1 of rows that are the same, −1 where they run against each other.
-fn same_line(a: &joint::Row, b: &joint::Row) -> Option<Real> {
-    let reversed = b.jacobian.map(|side| side.map(|x| -x));
-    if a.jacobian == b.jacobian { Some(1.0) } else { (a.jacobian == reversed).then_some(-1.0) }
-}
-
 /// Speed (m/s) along row k of a hold with a bounded force that is open: what closes it in a substep, and no more than half
 /// of the bound can brake on the way, so that it arrives and does not swing past.
 fn way_back(tie: &Tie, k: usize, velocities: &[Velocity], h: Real) -> Real {
     let rows = tie.middle.as_slice();
     let now = &rows[k];
-    let open = if tie.middle.disc && k < 2 {
-        hypot(rows[0].position, rows[1].position)
+    let (open, response) = if tie.middle.disc && k < 2 {
+        let [xx, yy, xy] = mobility(tie, velocities);
+        let (x, y) = (rows[0].position, rows[1].position);
+        let open = hypot(x, y);
+        (open, (xx * x * x + yy * y * y + 2.0 * xy * x * y) / (open * open))
     } else {
-        now.position.abs()
+        (now.position.abs(), coupling(tie, [now, now], velocities))
     };
     if open == 0.0 {
         return 0.0;
     }
-    let braking = 0.5 * now.bound * response(tie, now, velocities);
-    now.position * (1.0 / h).min((2.0 * braking / open).sqrt())
+    now.position * (1.0 / h).min((now.bound * response / open).sqrt())
 }
 
-/// JM⁻¹Jᵀ of a row (1/kg, or 1/(kg·m²)).
-pub fn response(tie: &Tie, row: &joint::Row, velocities: &[Velocity]) -> Real {
-    let of = |side: usize| {
-        tie.slots[side].map_or(0.0, |slot| row.response(side, velocities[slot as usize].inverse()))
+/// JM⁻¹Jᵀ of the first two rows of a joint: of the first, of the second, between them.
+pub fn mobility(tie: &Tie, velocities: &[Velocity]) -> [Real; 3] {
+    let [x, y, ..] = &tie.middle.rows;
+    [[x, x], [y, y], [x, y]].map(|rows| coupling(tie, rows, velocities))
+}
+
+/// J M⁻¹ J'ᵀ of two rows of a joint (1/kg, or 1/(kg·m²)).
+fn coupling(tie: &Tie, [a, b]: [&joint::Row; 2], velocities: &[Velocity]) -> Real {
+    let of = |side: usize| -> Real {
+        let Some(slot) = tie.slots[side] else { return 0.0 };
+        let inverse = velocities[slot as usize].inverse();
+        (0..3).map(|i| a.jacobian[side][i] * inverse[i] * b.jacobian[side][i]).sum()
     };
     of(0) + of(1)
 }
