@@ -166,6 +166,33 @@ fn body_of(model: &Model, i: &prop::sample::Index) -> Option<BodyHandle> {
     (!model.bodies.is_empty()).then(|| i.get(&model.bodies).0)
 }
 
+/// Does to joints what it says, to the model too.
+fn perform_on_joints(action: &Action, world: &mut World, model: &mut Model) -> Result<(), Error> {
+    match action {
+        Action::Join(a, b, kind, collide_connected) => {
+            if let Some(body) = body_of(model, a) {
+                let bodies = [b.as_ref().and_then(|b| body_of(model, b)), Some(body)];
+                let def = JointDef::new(bodies[0], bodies[1], *kind);
+                let def = JointDef { collide_connected: *collide_connected, ..def };
+                model.joints.push((world.add_joint(def)?, bodies));
+            }
+        }
+        Action::Part(i) if !model.joints.is_empty() => {
+            let joint = i.get(&model.joints).0;
+            world.remove_joint(joint)?;
+            model.joints.retain(|own| own.0 != joint);
+        }
+        Action::Change(i, kind, most) if !model.joints.is_empty() => {
+            world.edit_joint(i.get(&model.joints).0, |def| {
+                def.kind = *kind;
+                def.breaking_force = Some(*most);
+            })?;
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
 /// Does it, to the model too where the world agrees; an action on a body or a joint is none where there is none.
 fn perform(
     action: &Action,
@@ -194,33 +221,13 @@ fn perform(
                 model.joints.retain(|joint| !joint.1.contains(&Some(body)));
             }
         }
-        Action::Join(a, b, kind, collide_connected) => {
-            if let Some(body) = body_of(model, a) {
-                let bodies = [b.as_ref().and_then(|b| body_of(model, b)), Some(body)];
-                let def = JointDef::new(bodies[0], bodies[1], *kind);
-                let def = JointDef { collide_connected: *collide_connected, ..def };
-                model.joints.push((world.add_joint(def)?, bodies));
-            }
-        }
-        Action::Part(i) => {
-            if !model.joints.is_empty() {
-                let joint = i.get(&model.joints).0;
-                world.remove_joint(joint)?;
-                model.joints.retain(|own| own.0 != joint);
-            }
-        }
-        Action::Change(i, kind, most) => {
-            if !model.joints.is_empty() {
-                world.edit_joint(i.get(&model.joints).0, |def| {
-                    def.kind = *kind;
-                    def.breaking_force = Some(*most);
-                })?;
-            }
-        }
         Action::Edit(i, edit) => {
             if let Some(body) = body_of(model, i) {
                 edit_body(edit, world.body_mut(body)?)?;
             }
+        }
+        Action::Join(..) | Action::Part(_) | Action::Change(..) => {
+            perform_on_joints(action, world, model)?;
         }
         Action::Air(density) => world.set_air(Air { density: *density, wind: vec2(0.3, 0.0) })?,
         Action::Field(true) => drop(world.add_field(Righting { strength: 2.0 })),
