@@ -177,20 +177,16 @@ fn perform_on_joints(action: &Action, world: &mut World, model: &mut Model) -> R
                 model.joints.push((world.add_joint(def)?, bodies));
             }
         }
-        Action::Part(i) => {
-            if !model.joints.is_empty() {
-                let joint = i.get(&model.joints).0;
-                world.remove_joint(joint)?;
-                model.joints.retain(|own| own.0 != joint);
-            }
+        Action::Part(i) if !model.joints.is_empty() => {
+            let joint = i.get(&model.joints).0;
+            world.remove_joint(joint)?;
+            model.joints.retain(|own| own.0 != joint);
         }
-        Action::Change(i, kind, most) => {
-            if !model.joints.is_empty() {
-                world.edit_joint(i.get(&model.joints).0, |def| {
-                    def.kind = *kind;
-                    def.breaking_force = Some(*most);
-                })?;
-            }
+        Action::Change(i, kind, most) if !model.joints.is_empty() => {
+            world.edit_joint(i.get(&model.joints).0, |def| {
+                def.kind = *kind;
+                def.breaking_force = Some(*most);
+            })?;
         }
         _ => {}
     }
