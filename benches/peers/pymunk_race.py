@@ -48,6 +48,8 @@ class Race:
         if scene["sleeping"]:
             self.space.sleep_time_threshold = TIME_TO_SLEEP
         self.bodies = [self.make_body(declared, scene) for declared in scene["bodies"]]
+        for declared in scene["joints"]:
+            self.make_joint(declared)
 
     def make_body(self, declared: dict[str, Any], scene: dict[str, Any]) -> pymunk.Body:
         """One body with its shapes; mass, centre and moment follow from the density."""
@@ -59,6 +61,7 @@ class Race:
             # Those of two shapes are multiplied.
             shape.friction = math.sqrt(scene["friction"])
             shape.elasticity = math.sqrt(scene["restitution"])
+            shape.filter = pymunk.ShapeFilter(group=declared["group"])
         body.position = tuple(declared["position"])
         body.angle = declared["angle"]
         self.space.add(body, *shapes)
@@ -68,6 +71,22 @@ class Race:
         if declared["asleep"] and scene["sleeping"]:
             body.sleep()
         return body
+
+    def make_joint(self, declared: dict[str, Any]) -> None:
+        """A hinge, with its limits and its spring as constraints of their own."""
+        a, b = (self.bodies[k] for k in declared["bodies"])
+        parts: list[pymunk.Constraint] = [
+            pymunk.PivotJoint(a, b, *(tuple(anchor) for anchor in declared["anchors"]))
+        ]
+        if declared["limits"] is not None:
+            parts.append(pymunk.RotaryLimitJoint(a, b, *declared["limits"]))
+        if declared["spring"] is not None:
+            spring = declared["spring"]
+            stiffness, damping = spring["stiffness"], spring["damping"]
+            parts.append(pymunk.DampedRotarySpring(a, b, 0.0, stiffness, damping))
+        for part in parts:
+            part.collide_bodies = False
+        self.space.add(*parts)
 
     def advance(self, first: int, last: int) -> float:
         """Takes steps and gives their CPU time (s)."""

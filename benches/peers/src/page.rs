@@ -69,12 +69,13 @@ fn cells<const N: usize>(cells: [&str; N]) -> Vec<String> {
     cells.map(String::from).to_vec()
 }
 
-const HEAD: [&str; 9] = [
+const HEAD: [&str; 10] = [
     "engine",
     "ms a step",
     "least … greatest",
     "× first",
     "overlap, mm",
+    "gap, mm",
     "kinetic, J",
     "energy, J",
     "rms speed, m/s",
@@ -91,7 +92,9 @@ fn row(outcome: &Outcome, entry: &Entry) -> Vec<String> {
     }
     row.push(outcome.ratio(entry).map_or(String::new(), three));
     if let Some(end) = entry.end {
-        row.extend([1e3 * end.overlap, end.kinetic, end.total, end.rms_speed].map(three));
+        row.extend(
+            [1e3 * end.overlap, 1e3 * end.gap, end.kinetic, end.total, end.rms_speed].map(three),
+        );
         row.push(end.lost.to_string());
     }
     row.resize(HEAD.len(), String::new());

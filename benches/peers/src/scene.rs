@@ -84,6 +84,8 @@ pub struct Body {
     pub density: Real,
     /// It starts asleep, where the engine can sleep.
     pub asleep: bool,
+    /// Bodies of one group, 1 to 31, do not touch each other; 0: no group.
+    pub group: u8,
 }
 
 impl Body {
@@ -98,6 +100,7 @@ impl Body {
             shapes,
             density: 1.0,
             asleep: false,
+            group: 0,
         }
     }
 
@@ -105,6 +108,32 @@ impl Body {
     pub fn ground(shapes: Vec<Shape>) -> Self {
         Self { kind: BodyKind::Static, ..Self::new(vec2(0.0, 0.0), shapes) }
     }
+}
+
+/// A hinge. Its bodies do not touch each other.
+#[derive(Clone, Debug, Serialize)]
+pub struct Joint {
+    /// Which bodies.
+    pub bodies: [usize; 2],
+    /// Where it holds each, in its frame (m).
+    pub anchors: [Vec2; 2],
+    /// Least and greatest angle of the second against the first (rad).
+    pub limits: Option<[Real; 2]>,
+    /// Draws the angle to 0.
+    pub spring: Option<Spring>,
+}
+
+/// A spring of an angle, by what is to be seen and by what follows for the two bodies alone.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Spring {
+    /// Frequency (Hz).
+    pub hertz: Real,
+    /// Damping ratio.
+    pub damping_ratio: Real,
+    /// k (N·m/rad).
+    pub stiffness: Real,
+    /// c (N·m·s/rad).
+    pub damping: Real,
 }
 
 /// A kinematic body that swings: its place is `amplitude` · sin(`rate` · t) from where it started.
@@ -167,6 +196,8 @@ pub struct Scene {
     pub about: &'static str,
     /// Its bodies.
     pub bodies: Vec<Body>,
+    /// What ties them.
+    pub joints: Vec<Joint>,
     /// Gravity (m/s²).
     pub gravity: Vec2,
     /// Coefficient of friction of every contact.

@@ -1,6 +1,8 @@
-//! The scenes. Those of Box2D's benchmark that need no joint keep its numbers (`shared/benchmarks.c`
+//! The scenes. Those of Box2D's benchmark keep its numbers (`shared/benchmarks.c`
 //! of Box2D 3.2), with two differences: friction is 0.6 everywhere, and the tumbler's frame turns by
 //! itself instead of by a motor. The pentagons of the junkyard are regular.
+
+mod jointed;
 
 use std::f64::consts::{PI, TAU};
 
@@ -16,11 +18,15 @@ const DRUM: Real = 25.0 * PI / 180.0;
 pub fn all() -> Vec<Scene> {
     vec![
         stack(10),
+        jointed::chain(),
+        jointed::rope(),
         pyramid(20),
         circles(1000),
         circles(5000),
         large_pyramid(),
+        jointed::ragdolls(),
         tumbler(),
+        jointed::joint_grid(),
         junkyard(),
         compounds(),
         smash(),
@@ -34,6 +40,7 @@ fn scene(name: &'static str, about: &'static str, bodies: Vec<Body>) -> Scene {
         name,
         about,
         bodies,
+        joints: Vec::new(),
         gravity: vec2(0.0, -10.0),
         friction: 0.6,
         restitution: 0.0,

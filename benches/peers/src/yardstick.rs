@@ -1,6 +1,8 @@
 //! How a scene ends, measured alike for all engines: from places and velocities, the declared shapes
 //! and nothing else.
 
+use std::collections::HashSet;
+
 use culbuto::body::BodyKind;
 use culbuto::math::{Pose, Real, Vec2, perp, vec2};
 use culbuto::shapes::{self, MassProperties};
@@ -8,13 +10,15 @@ use serde::Serialize;
 
 use crate::Result;
 use crate::engines::State;
-use crate::scene::{Body, Scene, Shape};
+use crate::scene::{Body, Joint, Scene, Shape};
 
 /// The measures.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct End {
     /// Deepest overlap of two shapes (m): the shortest way that parts them.
     pub overlap: Real,
+    /// Farthest that the two anchors of a joint are apart (m); infinite where a body is lost to numbers.
+    pub gap: Real,
     /// ½mv² + ½Iω² of all dynamic bodies (J).
     pub kinetic: Real,
     /// The same and −m g·r, r from the origin (J).
@@ -41,7 +45,8 @@ pub fn measure(scene: &Scene, states: &[State]) -> Result<End> {
     if states.len() != scene.bodies.len() {
         return Err("a state of another number of bodies".into());
     }
-    let mut end = End { overlap: 0.0, kinetic: 0.0, total: 0.0, rms_speed: 0.0, lost: 0 };
+    let (overlap, gap) = (deepest(&pieces(scene, states), &scene.joints), widest(scene, states));
+    let mut end = End { overlap, gap, kinetic: 0.0, total: 0.0, rms_speed: 0.0, lost: 0 };
     let mut squares = 0.0;
     let dynamic = scene.bodies.iter().zip(states).filter(|(body, _)| is_dynamic(body));
     for (body, state) in dynamic {
@@ -59,8 +64,18 @@ pub fn measure(scene: &Scene, states: &[State]) -> Result<End> {
     }
     let count = u32::try_from(scene.dynamic().max(1))?;
     end.rms_speed = (squares / Real::from(count)).sqrt();
-    end.overlap = deepest(&pieces(scene, states));
     Ok(end)
+}
+
+/// Farthest that anchors of a joint are apart.
+fn widest(scene: &Scene, states: &[State]) -> Real {
+    let gap = |joint: &Joint| {
+        let [a, b] =
+            [0, 1].map(|side| pose(&states[joint.bodies[side]]).apply(joint.anchors[side]));
+        let gap = (b - a).norm();
+        if gap.is_nan() { Real::INFINITY } else { gap }
+    };
+    scene.joints.iter().map(gap).fold(0.0, Real::max)
 }
 
 fn is_dynamic(body: &Body) -> bool {
@@ -93,6 +108,7 @@ fn mass(body: &Body) -> Result<MassProperties> {
 /// A shape in the world.
 struct Piece {
     body: usize,
+    group: u8,
     dynamic: bool,
     corners: Vec<Vec2>,
     radius: Real,
@@ -100,11 +116,12 @@ struct Piece {
     high: Vec2,
 }
 
-fn piece(body: usize, dynamic: bool, corners: Vec<Vec2>, radius: Real) -> Piece {
+fn piece(number: usize, body: &Body, corners: Vec<Vec2>, radius: Real) -> Piece {
     let around = vec2(radius, radius);
     let low = corners.iter().fold(corners[0], |m, p| m.inf(p)) - around;
     let high = corners.iter().fold(corners[0], |m, p| m.sup(p)) + around;
-    Piece { body, dynamic, corners, radius, low, high }
+    let (dynamic, group) = (is_dynamic(body), body.group);
+    Piece { body: number, group, dynamic, corners, radius, low, high }
 }
 
 fn pieces(scene: &Scene, states: &[State]) -> Vec<Piece> {
@@ -113,7 +130,7 @@ fn pieces(scene: &Scene, states: &[State]) -> Vec<Piece> {
     let pieces = finite.flat_map(|(i, (body, state))| {
         body.shapes.iter().map(move |shape| {
             let corners = shape.corners().into_iter().map(|p| pose(state).apply(p)).collect();
-            piece(i, is_dynamic(body), corners, shape.radius())
+            piece(i, body, corners, shape.radius())
         })
     });
     let mut pieces: Vec<Piece> = pieces.collect();
@@ -121,13 +138,17 @@ fn pieces(scene: &Scene, states: &[State]) -> Vec<Piece> {
     pieces
 }
 
-/// The deepest overlap among pieces sorted by their left ends (sweep and prune).
-fn deepest(pieces: &[Piece]) -> Real {
+/// The deepest overlap among pieces sorted by their left ends (sweep and prune), of those that may touch.
+fn deepest(pieces: &[Piece], joints: &[Joint]) -> Real {
+    let joined: HashSet<[usize; 2]> =
+        joints.iter().flat_map(|Joint { bodies: [a, b], .. }| [[*a, *b], [*b, *a]]).collect();
     let mut deepest: Real = 0.0;
     for (i, a) in pieces.iter().enumerate() {
         for b in pieces[i + 1..].iter().take_while(|b| b.low.x < a.high.x) {
             let apart = a.low.y >= b.high.y || b.low.y >= a.high.y;
-            if !apart && a.body != b.body && (a.dynamic || b.dynamic) {
+            let grouped = a.group == b.group && a.group != 0;
+            let may = a.body != b.body && (a.dynamic || b.dynamic) && !grouped;
+            if !apart && may && !joined.contains(&[a.body, b.body]) {
                 deepest = deepest.max(overlap(a, b));
             }
         }

@@ -1,9 +1,10 @@
 //! Box2D 3, through its safe bindings.
 
+use boxdd::filter::Filter;
 use boxdd::shapes::{circle, segment};
 use boxdd::{BodyId, BodyType, Foundation, Polygon, ShapeDef, SurfaceMaterial, Transform, World};
 use culbuto::body::BodyKind;
-use culbuto::math::{Real, Vec2, vec2};
+use culbuto::math::{Pose, Real, Vec2, vec2};
 
 use super::{Engine, State};
 use crate::Result;
@@ -59,11 +60,30 @@ fn add_body(world: &mut World, scene: &Scene, declared: &Body) -> Result<BodyId>
     let material = SurfaceMaterial::new()
         .with_friction(number(scene.friction))?
         .with_restitution(number(scene.restitution))?;
-    let shape = ShapeDef::builder().material(material).density(number(declared.density)).build()?;
+    let filter = Filter { group_index: -i32::from(declared.group), ..Filter::default() };
+    let density = number(declared.density);
+    let shape = ShapeDef::builder().material(material).density(density).filter(filter).build()?;
     let id = world.create_body(def)?;
     let mut body = world.body(id)?;
     declared.shapes.iter().try_for_each(|part| add_shape(&mut body, &shape, part))?;
     Ok(id)
+}
+
+fn add_joint(world: &mut World, scene: &Scene, k: usize, bodies: &[BodyId]) -> Result<()> {
+    let declared = &scene.joints[k];
+    let [a, b] = declared.bodies.map(|body| bodies[body]);
+    let first = &scene.bodies[declared.bodies[0]];
+    let frame = Pose { position: first.position, angle: first.angle };
+    let at = pair(frame.apply(declared.anchors[0]));
+    let mut hinge = world.revolute(a, b).anchor_world(at).collide_connected(false);
+    if let Some([low, high]) = declared.limits {
+        hinge = hinge.limit(number(low), number(high));
+    }
+    if let Some(spring) = declared.spring {
+        hinge = hinge.spring(number(spring.hertz), number(spring.damping_ratio));
+    }
+    hinge.build()?;
+    Ok(())
 }
 
 impl Engine for Box2d {
@@ -76,7 +96,10 @@ impl Engine for Box2d {
         let def = builder.gravity(pair(scene.gravity)).enable_sleep(scene.sleeping).build()?;
         let mut world = foundation.create_world(def)?;
         let bodies = scene.bodies.iter().map(|body| add_body(&mut world, scene, body));
-        let bodies = bodies.collect::<Result<_>>()?;
+        let bodies = bodies.collect::<Result<Vec<_>>>()?;
+        for k in 0..scene.joints.len() {
+            add_joint(&mut world, scene, k, &bodies)?;
+        }
         Ok(Self { world, bodies })
     }
 

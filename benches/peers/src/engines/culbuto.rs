@@ -1,13 +1,14 @@
 //! Culbuto.
 
-use culbuto::body::{BodyDef, Friction, Part, Surface};
+use culbuto::body::{BodyDef, Filter, Friction, Part, Surface};
+use culbuto::joint::{self, JointDef, JointKind, Travel};
 use culbuto::math::{Twist, Vec2};
 use culbuto::shapes::{Shape, ShapeDef};
 use culbuto::{BodyHandle, World};
 
 use super::{Engine, State};
 use crate::Result;
-use crate::scene::{Body, Scene, Shape as Declared};
+use crate::scene::{Body, Joint, Scene, Shape as Declared};
 
 pub struct Culbuto {
     world: World,
@@ -37,8 +38,18 @@ fn def(body: &Body, surface: &Surface) -> Result<BodyDef> {
         shapes: parts.collect::<Result<_>>()?,
         density: body.density,
         surface: surface.clone(),
+        filter: Filter { group: -i32::from(body.group), ..Filter::default() },
         ..BodyDef::default()
     })
+}
+
+fn hinge(declared: &Joint, handles: &[BodyHandle]) -> JointDef {
+    let spring = declared.spring.map(|s| joint::Spring::new(s.hertz, s.damping_ratio));
+    let travel = Travel { limits: declared.limits, spring, ..Travel::default() };
+    let [a, b] = declared.bodies.map(|k| handles[k]);
+    let [at_a, at_b] = declared.anchors;
+    JointDef::new(a, b, JointKind::Revolute { angle: Some(0.0), travel })
+        .anchored_locally(at_a, at_b)
 }
 
 impl Engine for Culbuto {
@@ -52,7 +63,10 @@ impl Engine for Culbuto {
             ..Surface::default()
         };
         let handles = scene.bodies.iter().map(|body| Ok(world.add_body(def(body, &surface)?)?));
-        let handles = handles.collect::<Result<_>>()?;
+        let handles = handles.collect::<Result<Vec<_>>>()?;
+        for declared in &scene.joints {
+            world.add_joint(hinge(declared, &handles))?;
+        }
         Ok(Self { world, handles })
     }
 

@@ -5,11 +5,12 @@ use culbuto::math::{Real, Vec2, vec2};
 
 use super::engine::math::Real as Number;
 use super::engine::prelude::{
-    ColliderBuilder, PhysicsWorld, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector,
+    ColliderBuilder, Group, InteractionGroups, InteractionTestMode, MotorModel, PhysicsWorld,
+    RevoluteJointBuilder, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector,
 };
 use crate::Result;
 use crate::engines::{Engine, State};
-use crate::scene::{Body, Scene, Shape};
+use crate::scene::{Body, Joint, Scene, Shape};
 
 pub struct Rapier {
     world: PhysicsWorld,
@@ -64,6 +65,30 @@ fn body(body: &Body, sleeping: bool) -> RigidBody {
         .build()
 }
 
+/// A bit for each group, and no such bit in its own filter.
+fn groups(group: u8) -> InteractionGroups {
+    let own = Group::from_bits_retain(1 << group);
+    let filter = if group == 0 { Group::ALL } else { !own };
+    InteractionGroups::new(own, filter, InteractionTestMode::And)
+}
+
+fn hinge(declared: &Joint) -> RevoluteJointBuilder {
+    let [a, b] = declared.anchors.map(vector);
+    let mut hinge =
+        RevoluteJointBuilder::new().contacts_enabled(false).local_anchor1(a).local_anchor2(b);
+    if let Some(limits) = declared.limits {
+        hinge = hinge.limits(limits.map(number));
+    }
+    if let Some(spring) = declared.spring {
+        hinge = hinge.motor_model(MotorModel::ForceBased).motor_position(
+            0.0,
+            number(spring.stiffness),
+            number(spring.damping),
+        );
+    }
+    hinge
+}
+
 impl Engine for Rapier {
     fn build(scene: &Scene) -> Result<Self> {
         let mut world = PhysicsWorld { gravity: vector(scene.gravity), ..PhysicsWorld::default() };
@@ -78,10 +103,15 @@ impl Engine for Rapier {
                 let collider = shape(part)?
                     .density(number(declared.density))
                     .friction(number(scene.friction))
-                    .restitution(number(scene.restitution));
+                    .restitution(number(scene.restitution))
+                    .collision_groups(groups(declared.group));
                 world.insert_collider(collider, Some(handle));
             }
             handles.push(handle);
+        }
+        for declared in &scene.joints {
+            let [a, b] = declared.bodies.map(|k| handles[k]);
+            world.insert_impulse_joint(a, b, hinge(declared));
         }
         Ok(Self { world, handles })
     }
