@@ -5,25 +5,27 @@ use crate::constraints::contact::Block;
 use crate::math::Real;
 use crate::solvers::block_impulses;
 
-/// Impulses of the three rows for an approach with velocities `u` beyond the tangential target.
+/// Impulses of the three rows for an approach with velocities `u` beyond the tangential target. None gives energy.
 ///
 /// `block` holds response and inverse of the rows that are on, and no impulse.
 #[must_use]
 pub fn impulses(law: ImpactLaw, block: &Block, u: [Real; 3], restitution: [Real; 2]) -> [Real; 3] {
-    match law {
+    let full = match law {
         ImpactLaw::Newton => newton(block, u, restitution),
         ImpactLaw::Poisson | ImpactLaw::Stronge => {
             let point = if block.on[0] { 0 } else { 1 };
             if block.on == [true, true] {
-                return poisson_of_two(block, u, restitution);
+                poisson_of_two(block, u, restitution)
+            } else {
+                let [k00, k11, _, k0t, k1t, ktt] = block.response;
+                let (normal, mixed) = if point == 0 { (k00, k0t) } else { (k11, k1t) };
+                let path = Path { normal, mixed, tangent: ktt, friction: block.friction };
+                let [p, t] = path.follow([u[point], u[2]], restitution[point], law);
+                if point == 0 { [p, 0.0, t] } else { [0.0, p, t] }
             }
-            let [k00, k11, _, k0t, k1t, ktt] = block.response;
-            let (normal, mixed) = if point == 0 { (k00, k0t) } else { (k11, k1t) };
-            let path = Path { normal, mixed, tangent: ktt, friction: block.friction };
-            let [p, t] = path.follow([u[point], u[2]], restitution[point], law);
-            if point == 0 { [p, 0.0, t] } else { [0.0, p, t] }
         }
-    }
+    };
+    limited(block, u, full)
 }
 
 /// u·p + ½p·Kp: the energy that impulses give (J).
@@ -42,20 +44,21 @@ fn response(block: &Block, p: &[Real; 3]) -> [Real; 3] {
     ]
 }
 
-/// Newton's law. With Coulomb's friction it can gain energy (Kane 1984); the impulse is then limited so that
-/// ½p·(u⁺ + u⁻) ≤ 0.
+/// Newton's law: leaves at e times the approach.
 fn newton(block: &Block, u: [Real; 3], e: [Real; 2]) -> [Real; 3] {
-    let solve = |restitution: [Real; 2]| {
-        let error = [u[0] * (1.0 + restitution[0]), u[1] * (1.0 + restitution[1]), u[2]];
-        block_impulses(&mut block.clone(), &error)
-    };
-    let full = solve(e);
-    if gain(block, &u, &full) <= 0.0 || e == [0.0; 2] {
+    let error = [u[0] * (1.0 + e[0]), u[1] * (1.0 + e[1]), u[2]];
+    block_impulses(&mut block.clone(), &error)
+}
+
+/// With Coulomb's friction an impact can gain energy (Kane 1984), by Newton's law and where two points share an impulse; it is
+/// then limited so that ½p·(u⁺ + u⁻) ≤ 0.
+fn limited(block: &Block, u: [Real; 3], full: [Real; 3]) -> [Real; 3] {
+    if gain(block, &u, &full) <= 0.0 {
         return full;
     }
-    // Between the plastic impulse, which takes energy, and Newton's: the last that gains none. The gain is
+    // Between the plastic impulse, which takes energy, and the full one: the last that gains none. The gain is
     // convex along the way: g(s) = g₀ + s g₁ + s² g₂ with g₀ ≤ 0.
-    let plastic = solve([0.0; 2]);
+    let plastic = newton(block, u, [0.0; 2]);
     let way = [0, 1, 2].map(|k| full[k] - plastic[k]);
     let (at, along) = (response(block, &plastic), response(block, &way));
     let g0 = gain(block, &u, &plastic).min(0.0);

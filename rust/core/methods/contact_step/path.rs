@@ -90,9 +90,9 @@ impl Pair<'_> {
             let (gap, approach) = self.nearest(&manifold, time);
             let none = NEAREST * self.link.width + 16.0 * self.rounding(&self.places_at(time));
             let resting = self.link.resting[0].max(self.link.resting[1]);
-            if approach > resting {
+            let soon = time + (4.0 * gap / approach).max(0.0);
+            if approach > resting && (gap <= none || self.stays_near(&ways, soon - time)) {
                 // Near one another the features are those that meet: their arrival is known to the last digits.
-                let soon = time + (4.0 * gap / approach).max(0.0);
                 let met = self.by_features(manifold, [time, to.min(soon)]);
                 if met.is_some() || gap <= none {
                     return met.or(Some((Arrival { time, approach }, manifold)));
@@ -106,7 +106,11 @@ impl Pair<'_> {
             // They touch and do not approach. Another point may swing in: of those that are near now, or of others
             // when they have turned a little.
             let turn = ways.iter().map(|way| (way.to.angle - way.from.angle).abs()).sum::<Real>();
-            let next = time + (to - time) / (turn / LITTLE).ceil().max(1.0);
+            let mut next = time + (to - time) / (turn / LITTLE).ceil().max(1.0);
+            if approach < 0.0 {
+                // They leave: a little later their distance tells when others meet, whatever their features.
+                next = next.min(time + LEFT * self.link.width / -approach);
+            }
             if let Some(found) = self.by_features(manifold, [time, next]) {
                 return Some(found);
             }
@@ -115,20 +119,33 @@ impl Pair<'_> {
         None
     }
 
+    /// Whether in a time the two bodies move so little against one another that no other features come near.
+    fn stays_near(&self, ways: &[Sweep; 2], time: Real) -> bool {
+        let [a, b] = [0, 1].map(|side| {
+            let spin = self.velocities[side].twist.angular.abs();
+            (self.velocities[side].twist.linear, spin)
+        });
+        let apart = (ways[1].from.position - ways[0].from.position).norm();
+        let speed = (b.0 - a.0).norm() + (a.1 + b.1) * apart;
+        speed * time <= ASIDE * self.link.width
+    }
+
     /// What rounding may do to a gap (m).
     fn rounding(&self, places: &[Place; 2]) -> Real {
         let ways = places[0].way.norm() + places[1].way.norm();
         4.0 * Real::EPSILON * (self.link.apart.norm() + ways)
     }
 
-    /// Smallest gap of a manifold at a time, and the fastest approach of the points that are as near.
+    /// Smallest gap of a manifold at a time, and the fastest approach of the points that are as near: below 0 where
+    /// they leave.
     fn nearest(&self, manifold: &Manifold, time: Real) -> (Real, Real) {
         let (places, velocities) = (self.places_at(time), self.velocities_at(time));
         let at = moved(manifold, self.link.apart, [&places[0], &places[1]]);
         let gap = at.gap[..manifold.count].iter().copied().fold(Real::INFINITY, Real::min);
         let near = |k: &usize| at.gap[*k] <= (4.0 * gap).max(NEAREST * self.link.width);
         let approach = |k: usize| -self.rates(manifold, &at, k, (&places, &velocities)).0;
-        let fastest = (0..manifold.count).filter(near).map(approach).fold(0.0, Real::max);
+        let approaches = (0..manifold.count).filter(near).map(approach);
+        let fastest = approaches.fold(Real::NEG_INFINITY, Real::max);
         (gap, fastest)
     }
 
@@ -197,6 +214,12 @@ pub const NEAR: Real = 1e-2;
 
 /// Turn (rad) over which the features that are near do not change: both ends of an edge count as near up to 45°.
 const LITTLE: Real = 0.25;
+
+/// Way, as a part of the smaller width, on which the features that are near surely stay those that meet.
+const ASIDE: Real = 16.0 * NEAR;
+
+/// Shapes that leave have left when they are this part of the width apart.
+const LEFT: Real = 1e-6;
 
 /// Down to which part of it further points are told from those that touch.
 const NEAREST: Real = 1e-10;
