@@ -10,5 +10,6 @@ mod laws;
 mod refusals;
 mod repeats;
 mod symmetry;
+mod taut;
 #[path = "../common/worlds.rs"]
 mod worlds;

@@ -54,7 +54,7 @@ fn alternate(
     (velocities, blocks): (&mut [Velocity], &mut [Block]),
     budget: Budget,
 ) -> (u32, Real) {
-    joints::solve(ties, velocities, budget.most.div_ceil(2));
+    joints::solve(ties, velocities, if blocks.is_empty() { joints::ROUNDS } else { joints::TURN });
     if blocks.is_empty() {
         return (0, 0.0);
     }
@@ -62,7 +62,7 @@ fn alternate(
     let mut residual = 0.0;
     for sweep in 1..=budget.most {
         (_, residual) = sweep::solve(velocities, blocks, single);
-        residual = joints::solve(ties, velocities, 1).max(residual);
+        residual = joints::solve(ties, velocities, joints::TURN).max(residual);
         if residual <= budget.tolerance {
             return (sweep, residual);
         }

@@ -86,8 +86,17 @@ fn bound_is_set(bound: Real) -> bool {
     bound != 0.0 && bound.is_finite()
 }
 
-/// Rounds in which all rows may change, and the rounds after them.
+/// Rounds in which all rows may change, before only the first does.
 const TOGETHER: usize = 8;
+
+/// Rounds that settle the bounds of any joint.
+pub const ROUNDS: usize = 64;
+
+/// Rounds of a turn between contacts, which change what bounds meet anyway.
+pub const TURN: usize = 4;
+
+/// Sweeps to and fro instead of rounds, at most.
+const SWEEPS: usize = 4;
 
 /// Rounding of a velocity, in parts of what it is a sum of.
 const ROUNDING: Real = 1e-12;
@@ -95,10 +104,10 @@ const ROUNDING: Real = 1e-12;
 /// Solves all rows against the present velocities and gives the bodies the change. Returns what they lacked at first: the
 /// largest, along a row.
 ///
-/// Where the rows are too many for factors, `sweeps` to and fro do what they can.
-pub fn solve(ties: &mut Ties, velocities: &mut [Velocity], sweeps: u32) -> Real {
+/// At most so many rounds. Where the rows are too many for factors, a few sweeps to and fro do what they can.
+pub fn solve(ties: &mut Ties, velocities: &mut [Velocity], rounds: usize) -> Real {
     let by_sweeps = ties.solver.by_sweeps();
-    let most = if by_sweeps { sweeps as usize } else { TOGETHER + 4 * ties.rows.len() };
+    let most = if by_sweeps { rounds.min(SWEEPS) } else { rounds };
     let mut first: Real = 0.0;
     for round in 0..most {
         prepare(ties, velocities);

@@ -8,7 +8,7 @@ use super::active::fill;
 use super::{Bodies, Ties};
 use crate::constraints::joint::{self, Action};
 use crate::math::{Real, Twist};
-use crate::methods::contact_step::Group;
+use crate::methods::contact_step::{Group, Mass};
 use crate::solvers::direct::Triple;
 
 /// Newton steps a substep: each leaves of a gap about its part of the turn in half a substep.
@@ -17,8 +17,15 @@ const STEPS: usize = 4;
 /// Sweeps to and fro of a Newton step where the solver sweeps.
 const SWEEPS: u32 = 2;
 
-/// A gap of this part of the lengths around the joint is rounding.
-const CLOSED: Real = 1e-14;
+/// A gap of this part of the lengths around the joint counts as closed: a hundred thousandth of what a substep opens.
+const CLOSED: Real = 1e-11;
+
+/// Farthest that a step may move a body, in parts of all gaps together: beyond it rows contradict one another.
+const FARTHEST: Real = 8.0;
+
+/// Part of their energy that the velocities' share may change. More comes of rows that contradict one another, such as those of a
+/// rope that is exactly taut, and would grow from substep to substep; then it is left out.
+const MOST_GAIN: Real = 1.0;
 
 /// Turn (rad) that a step may give at most.
 const MOST_TURN: Real = 0.3;
@@ -138,7 +145,10 @@ fn shift(group: &mut Group, total: &mut [Triple]) -> (Real, Real) {
     }
     solver.solve(wanted, SWEEPS, solved, change);
     let turn = change.iter().map(|change| change.angular.abs()).fold(0.0, Real::max);
-    let part = if turn > MOST_TURN { MOST_TURN / turn } else { 1.0 };
+    let way = change.iter().map(|change| change.linear.norm()).fold(0.0, Real::max);
+    let far = FARTHEST * wanted.iter().flatten().map(|gap| gap.abs()).sum::<Real>();
+    let within = |most: Real, size: Real| if size > most { most / size } else { 1.0 };
+    let part = within(MOST_TURN, turn).min(within(far, way));
     for (sum, own) in total.iter_mut().zip(&*solved) {
         sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += part * own);
     }
@@ -171,11 +181,18 @@ fn turn_velocities(group: &mut Group, total: &[Triple], half: Real) -> Real {
         }
     }
     let gains =
-        before.iter().zip(velocities.iter()).zip(masses).map(|((before, velocity), mass)| {
+        before.iter().zip(velocities.iter()).zip(&*masses).map(|((before, velocity), mass)| {
             let now = &velocity.twist;
             let change = Twist::new(now.linear - before.linear, now.angular - before.angular);
             let sum = Twist::new(now.linear + before.linear, now.angular + before.angular);
             0.5 * mass.work(&change, &sum)
         });
-    gains.sum()
+    let gained: Real = gains.sum();
+    let energy = |(twist, mass): (&Twist, &Mass)| 0.5 * mass.work(twist, twist);
+    let energies: Real = before.iter().zip(&*masses).map(energy).sum();
+    if gained.abs() <= MOST_GAIN * energies {
+        return gained;
+    }
+    velocities.iter_mut().zip(before).for_each(|(velocity, before)| velocity.twist = before);
+    0.0
 }

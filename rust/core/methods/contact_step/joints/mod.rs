@@ -12,7 +12,7 @@ mod load;
 mod motors;
 mod prepare;
 
-pub use active::solve;
+pub use active::{ROUNDS, TURN, solve};
 pub use close::close;
 pub use load::{take_loads, turning_rate};
 pub use prepare::prepare;
