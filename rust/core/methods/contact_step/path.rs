@@ -90,9 +90,9 @@ impl Pair<'_> {
             let (gap, approach) = self.nearest(&manifold, time);
             let none = NEAREST * self.link.width + 16.0 * self.rounding(&self.places_at(time));
             let resting = self.link.resting[0].max(self.link.resting[1]);
-            let soon = time + (4.0 * gap / approach).max(0.0);
-            if approach > resting && (gap <= none || self.stays_near(&ways, soon - time)) {
+            if approach > resting {
                 // Near one another the features are those that meet: their arrival is known to the last digits.
+                let soon = time + (4.0 * gap / approach).max(0.0);
                 let met = self.by_features(manifold, [time, to.min(soon)]);
                 if met.is_some() || gap <= none {
                     return met.or(Some((Arrival { time, approach }, manifold)));
@@ -117,17 +117,6 @@ impl Pair<'_> {
             (time, target) = (next, NEAR * self.link.width);
         }
         None
-    }
-
-    /// Whether in a time the two bodies move so little against one another that no other features come near.
-    fn stays_near(&self, ways: &[Sweep; 2], time: Real) -> bool {
-        let [a, b] = [0, 1].map(|side| {
-            let spin = self.velocities[side].twist.angular.abs();
-            (self.velocities[side].twist.linear, spin)
-        });
-        let apart = (ways[1].from.position - ways[0].from.position).norm();
-        let speed = (b.0 - a.0).norm() + (a.1 + b.1) * apart;
-        speed * time <= ASIDE * self.link.width
     }
 
     /// What rounding may do to a gap (m).
@@ -214,9 +203,6 @@ pub const NEAR: Real = 1e-2;
 
 /// Turn (rad) over which the features that are near do not change: both ends of an edge count as near up to 45°.
 const LITTLE: Real = 0.25;
-
-/// Way, as a part of the smaller width, on which the features that are near surely stay those that meet.
-const ASIDE: Real = 16.0 * NEAR;
 
 /// Shapes that leave have left when they are this part of the width apart.
 const LEFT: Real = 1e-6;

@@ -25,7 +25,7 @@ const FARTHEST: Real = 8.0;
 
 /// Part of their energy that the velocities' share may change. More comes of rows that contradict one another, such as those of a
 /// rope that is exactly taut, and would grow from substep to substep; then it is left out.
-const MOST_GAIN: Real = 1.0;
+const MOST_GAIN: Real = 0.1;
 
 /// Turn (rad) that a step may give at most.
 const MOST_TURN: Real = 0.3;
