@@ -257,3 +257,33 @@ fn pairs_have_no_order() {
     map.clear();
     assert!(map.is_empty());
 }
+
+proptest! {
+    /// What is posted and settled in one go meets what it would if it came one by one, and the trees stay trees.
+    #[test]
+    fn many_boxes_in_one_go_meet_what_one_by_one_do(
+        places in prop::collection::vec((points(12.0), any::<bool>()), 2..60),
+        ways in prop::collection::vec(points(9.0), 1..6),
+        part in 1..4_usize,
+    ) {
+        let [mut one, mut many] = [BroadPhase::default(), BroadPhase::default()];
+        for (place, moving) in &places {
+            one.insert(&unit_box(*place), 0.1, *moving);
+            many.insert(&unit_box(*place), 0.1, *moving);
+        }
+        for (round, way) in ways.iter().enumerate() {
+            for (k, (place, moving)) in places.iter().enumerate().filter(|(k, _)| k % part == 0) {
+                let turn = if *moving { k as Real } else { 0.0 };
+                let tight = unit_box(place + *way * (1.0 + 0.1 * turn * round as Real));
+                one.update(ProxyId(k as u32), &tight, 0.1);
+                many.post(ProxyId(k as u32), &tight, 0.1);
+            }
+            many.settle();
+            let [mut first, mut second] = [BTreeSet::new(), BTreeSet::new()];
+            one.find_pairs(|_, _| true, |a, b| assert!(first.insert((a, b))));
+            many.find_pairs(|_, _| true, |a, b| assert!(second.insert((a, b))));
+            prop_assert_eq!(first, second);
+            prop_assert_eq!(one.quality().leaves, many.quality().leaves);
+        }
+    }
+}

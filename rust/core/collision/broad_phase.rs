@@ -36,6 +36,9 @@ pub struct BroadPhase {
     proxies: Vec<Proxy>,
     free: u32,
     moved: Vec<ProxyId>,
+    /// New boxes that the trees do not know yet.
+    #[serde(skip)]
+    posted: Vec<(ProxyId, Aabb)>,
     #[serde(skip)]
     stack: Vec<u32>,
     /// What has changed since a copy was made that [`BroadPhase::save_into`] keeps up; none: that knows nothing yet.
@@ -76,6 +79,7 @@ impl Default for BroadPhase {
             proxies: Vec::new(),
             free: NONE,
             moved: Vec::new(),
+            posted: Vec::new(),
             stack: Vec::new(),
             log: None,
         }
@@ -117,13 +121,48 @@ impl BroadPhase {
     /// Nothing happens while that lies in the fat box, unless the fat box is more than three margins too large
     /// somewhere. Returns whether the fat box changed; then it counts as moved.
     pub fn update(&mut self, id: ProxyId, tight: &Aabb, margin: Real) -> bool {
-        const LOOSEST: Real = 4.0;
-        let fat = self.proxy(id).fat;
-        if fat.contains_box(tight) && tight.grown(LOOSEST * margin).contains_box(&fat) {
-            return false;
+        let fits = self.fits(id, tight, margin);
+        if !fits {
+            self.replace(id, tight.grown(margin));
         }
-        self.replace(id, tight.grown(margin));
-        true
+        !fits
+    }
+
+    /// The same for one of many; what is asked before [`BroadPhase::settle`] may miss it.
+    pub fn post(&mut self, id: ProxyId, tight: &Aabb, margin: Real) {
+        if !self.fits(id, tight, margin) {
+            self.posted.push((id, tight.grown(margin)));
+        }
+    }
+
+    fn fits(&self, id: ProxyId, tight: &Aabb, margin: Real) -> bool {
+        const LOOSEST: Real = 4.0;
+        let fat = &self.proxy(id).fat;
+        fat.contains_box(tight) && tight.grown(LOOSEST * margin).contains_box(fat)
+    }
+
+    /// Takes in what was posted. A few boxes get new places in the trees; where many move, the trees keep their form and all
+    /// boxes above are made to fit in one go.
+    pub fn settle(&mut self) {
+        let mut posted = std::mem::take(&mut self.posted);
+        if self.are_many(posted.len()) {
+            self.log = None;
+            for (id, fat) in posted.drain(..) {
+                let Proxy { leaf, moving, .. } = *self.proxy(id);
+                self.trees[usize::from(moving)].set(leaf, fat);
+                self.proxies[id.0 as usize].fat = fat;
+                self.touch(id);
+            }
+            self.trees.iter_mut().for_each(Tree::refit);
+        }
+        posted.drain(..).for_each(|(id, fat)| self.replace(id, fat));
+        self.posted = posted;
+    }
+
+    /// Whether so many boxes are better seen together than one by one.
+    fn are_many(&self, boxes: usize) -> bool {
+        const PART: usize = 16;
+        PART * boxes > self.proxies.len()
     }
 
     fn replace(&mut self, id: ProxyId, fat: Aabb) {
@@ -160,7 +199,8 @@ impl BroadPhase {
     }
 
     fn note(&mut self, edit: Edit) {
-        let most = self.proxies.len();
+        // Beyond that a copy of all is cheaper than what changed.
+        let most = self.proxies.len() / 16;
         if let Some(log) = &mut self.log {
             log.push(edit);
             if log.len() > most {
@@ -213,6 +253,47 @@ impl BroadPhase {
         mut allow: impl FnMut(ProxyId, ProxyId) -> bool,
         mut found: impl FnMut(ProxyId, ProxyId),
     ) {
+        if self.are_many(self.moved.len()) {
+            self.find_many(&mut allow, &mut found);
+        } else {
+            self.find_each(&mut allow, &mut found);
+        }
+        if !self.moved.is_empty() {
+            self.forget_moved();
+            self.note(Edit::Drain);
+        }
+    }
+
+    /// Goes down both trees with all that moved at once.
+    fn find_many(
+        &mut self,
+        allow: &mut impl FnMut(ProxyId, ProxyId) -> bool,
+        found: &mut impl FnMut(ProxyId, ProxyId),
+    ) {
+        let Self { trees, proxies, moved, .. } = self;
+        // What was removed since is in no tree.
+        let there = |proxy: &Proxy| proxy.fat.min.x <= proxy.fat.max.x;
+        for proxy in moved.iter().map(|id| proxies[id.0 as usize]).filter(there) {
+            trees[usize::from(proxy.moving)].mark(proxy.leaf);
+        }
+        let mut see = |a: u32, b: u32| {
+            let (a, b) = (ProxyId(a.min(b)), ProxyId(a.max(b)));
+            if allow(a, b) {
+                found(a, b);
+            }
+        };
+        let [still, moving] = &*trees;
+        moving.pairs(&mut see);
+        moving.pairs_with(still, &mut see);
+        trees.iter_mut().for_each(Tree::unmark);
+    }
+
+    /// Asks the trees for each that moved.
+    fn find_each(
+        &mut self,
+        allow: &mut impl FnMut(ProxyId, ProxyId) -> bool,
+        found: &mut impl FnMut(ProxyId, ProxyId),
+    ) {
         let Self { trees, proxies, moved, stack, .. } = self;
         for &id in &*moved {
             let Proxy { fat, moving, .. } = proxies[id.0 as usize];
@@ -228,10 +309,6 @@ impl BroadPhase {
             for tree in &trees[usize::from(!moving)..] {
                 tree.query(&fat, stack, &mut see);
             }
-        }
-        if !self.moved.is_empty() {
-            self.forget_moved();
-            self.note(Edit::Drain);
         }
     }
 

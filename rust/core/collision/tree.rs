@@ -7,6 +7,7 @@
 //! grandchild change places where that makes a box smaller (tree rotations: Kensler 2008; Catto, "Dynamic
 //! bounding volume hierarchies", GDC 2019). So the tree depends on the order of the calls alone.
 
+mod batch;
 mod search;
 
 use serde::{Deserialize, Serialize};
@@ -41,6 +42,14 @@ pub(super) struct Tree {
     nodes: Vec<Node>,
     root: u32,
     free: u32,
+    /// Sizes of the inner boxes over those of the leaves when the tree was last good; 0: not known.
+    #[serde(default)]
+    looseness: Real,
+    /// Of each node, whether a leaf below it counts as moved; empty: none does.
+    #[serde(skip)]
+    marks: Vec<bool>,
+    #[serde(skip)]
+    order: Vec<u32>,
 }
 
 // By hand, so that a copy into an old one keeps its memory.
@@ -53,13 +62,20 @@ impl Clone for Tree {
 
     fn clone_from(&mut self, from: &Self) {
         self.nodes.clone_from(&from.nodes);
-        (self.root, self.free) = (from.root, from.free);
+        (self.root, self.free, self.looseness) = (from.root, from.free, from.looseness);
     }
 }
 
 impl Default for Tree {
     fn default() -> Self {
-        Self { nodes: Vec::new(), root: NONE, free: NONE }
+        Self {
+            nodes: Vec::new(),
+            root: NONE,
+            free: NONE,
+            looseness: 0.0,
+            marks: Vec::new(),
+            order: Vec::new(),
+        }
     }
 }
 

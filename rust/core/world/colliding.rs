@@ -69,7 +69,8 @@ impl World {
     /// something may.
     fn step_apart(&mut self, dt: Real, tolerance: Real, watch: &mut Watch<'_>) -> Result<bool> {
         let before = self.state.clone();
-        self.detect(dt, 0.0)?;
+        self.state.contacts.spread.clear();
+        self.detect(dt)?;
         self.scratch.contacts.methods = true;
         self.find_islands();
         if self.scratch.contacts.is_idle() {

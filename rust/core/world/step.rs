@@ -91,9 +91,9 @@ impl World {
     /// or strikes what sleeps, the step is taken again with that in view, or awake.
     pub(super) fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
         let hits = self.events.hit.len();
-        let mut spread = 0.0;
+        self.state.contacts.spread.clear();
         for tries in 1.. {
-            self.stage("detect", |world| world.detect(dt, spread))?;
+            self.stage("detect", |world| world.detect(dt))?;
             self.stage("islands", |world| {
                 world.find_islands();
                 Ok(())
@@ -103,14 +103,16 @@ impl World {
                 self.scratch.start.save(&self.state, plan);
             }
             self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
-            let thrown = self.scratch.contacts.thrown;
             let struck = self.state.contacts.struck(&self.state.bodies);
-            if !watched || (thrown == 0.0 && struck.is_empty()) || tries == MOST_TRIES {
+            if !watched
+                || (self.scratch.contacts.thrown.is_empty() && struck.is_empty())
+                || tries == MOST_TRIES
+            {
                 self.wake_islands(&struck);
                 break;
             }
-            spread = if thrown > 0.0 { 2.0 * thrown } else { spread };
             self.scratch.start.restore(&mut self.state);
+            self.state.contacts.spread_out(&self.scratch.contacts.thrown);
             self.wake_islands(&struck);
             self.planned();
             self.events.hit.truncate(hits);

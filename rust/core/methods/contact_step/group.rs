@@ -155,6 +155,8 @@ pub struct Group {
     pub angles: Vec<Real>,
     /// How far from its start each body may get before what it can meet must be looked for anew (m).
     pub reach: Vec<Real>,
+    /// Bodies that got farther, and how far (m).
+    pub thrown: Vec<(u32, Real)>,
     /// Masses.
     pub masses: Vec<Mass>,
     /// Rows.
@@ -184,6 +186,7 @@ impl Group {
         self.masses.clear();
         self.angles.clear();
         self.reach.clear();
+        self.thrown.clear();
         self.blocks.clear();
         self.links.clear();
         self.ties.clear();
@@ -191,11 +194,12 @@ impl Group {
         self.watch.clear();
     }
 
-    /// How far a body has got beyond what was foreseen when what it can meet was looked for (m).
-    pub(super) fn farthest_thrown(&self) -> Real {
+    /// Notes which bodies have got beyond what was foreseen when what they can meet was looked for, and how far (m).
+    pub(super) fn note_thrown(&mut self) {
         let ways = self.places.iter().map(|place| place.way.norm());
-        let thrown = ways.zip(&self.reach).filter(|(way, reach)| way > *reach);
-        thrown.map(|(way, _)| way).fold(0.0, Real::max)
+        let thrown =
+            ways.zip(&self.reach).zip(&self.bodies).filter(|((way, reach), _)| way > *reach);
+        self.thrown.extend(thrown.map(|((way, _), body)| (*body, way)));
     }
 
     /// The work of the rows of a substep.

@@ -75,8 +75,6 @@ pub struct Outcome {
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
     pub residual: Real,
-    /// How far a body was thrown that may have met what was not looked for (m); 0 where none was.
-    pub thrown: Real,
 }
 
 /// Moves a group through a span.
@@ -114,7 +112,7 @@ pub fn run(
             joints::book_dampers(group, &mut outcome.ledger);
         }
         if !group.watch.blocks.is_empty() {
-            outcome.thrown = outcome.thrown.max(group.farthest_thrown());
+            group.note_thrown();
         }
     }
     Ok(outcome)

@@ -5,8 +5,8 @@ use rustc_hash::FxHashMap;
 use super::hooks::Answer;
 use super::near::Kind;
 use super::surroundings::{Fields, Still};
-use super::view::place_of;
-use super::{Contacts, FAR};
+use super::view::{place_of, seen};
+use super::{Contacts, FAR, Patch};
 use crate::body::Bodies;
 use crate::collision::{Anchor, Collider, Manifold, Normal};
 use crate::constraints::contact::{Block, Touch, moved};
@@ -49,8 +49,8 @@ pub(in crate::world) struct ContactScratch {
     pub start: Real,
     /// Some body may bounce or moves far in a step.
     pub watched: bool,
-    /// How far a body was thrown that may have met what was not looked for (m).
-    pub thrown: Real,
+    /// Bodies that were thrown so that they may have met what was not looked for, and how far (m).
+    pub thrown: Vec<(u32, Real)>,
 }
 
 impl ContactScratch {
@@ -120,7 +120,8 @@ impl World {
             moved.clear();
         }
         moved.resize(masses.len(), false);
-        (*thrown, *watched) = (0.0, contacts.far);
+        thrown.clear();
+        *watched = contacts.far;
         let patches = if meets { &contacts.patches[..] } else { &[] };
         for (place, patch) in patches.iter().enumerate() {
             let near = &contacts.near[patch.near as usize];
@@ -331,7 +332,7 @@ impl World {
             contacts.patches[link.place as usize].memory = memory;
         }
         *ledger += outcome.ledger;
-        scratch.contacts.thrown = scratch.contacts.thrown.max(outcome.thrown);
+        scratch.contacts.thrown.extend_from_slice(&scratch.contacts.group.thrown);
         report.sweeps += outcome.sweeps;
         report.impacts += outcome.impacts;
         report.residual = report.residual.max(outcome.residual);
@@ -364,7 +365,8 @@ fn link_of(
         let arrives = !loaded && moves(gap.max(LITTLE * width), span.duration);
         arrives || moves(TURNS * width, span.duration)
     };
-    let far = contacts.spread > FAR * width || moves(FAR * width, span.h());
+    let far = contacts.spread_of([i, j]) > FAR * width || moves(FAR * width, span.h());
+    let far = far && (bounces || !is_closed(bodies, patch, [i, j], width));
     let watched = watched(far, (bounces, !round && bounces && turns()), round);
     let tangent_speed = touch.tangent_speed;
     let link = Link {
@@ -416,6 +418,13 @@ fn watched(far: bool, (bounces, turns): (bool, bool), round: bool) -> Watched {
         (false, _) if bounces => Watched::Bounces,
         (false, _) => Watched::No,
     }
+}
+
+/// Whether all points of a patch touch: their rows hold them, however fast the bodies are.
+fn is_closed(bodies: &Bodies, patch: &Patch, [i, j]: [usize; 2], width: Real) -> bool {
+    const CLOSED: Real = 1e-3;
+    let gaps = seen(&patch.manifold, [&bodies.poses[i], &bodies.poses[j]]).gaps;
+    gaps[..patch.manifold.count].iter().all(|gap| *gap <= CLOSED * width)
 }
 
 /// A motion in a step beyond this part of the width may bring other features together.

@@ -12,15 +12,15 @@ use crate::math::{Real, Twist, Vec2};
 use crate::world::World;
 
 impl World {
-    /// Broad phase, then narrow phase. Any body may be thrown as far as `spread` (m).
+    /// Broad phase, then narrow phase.
     ///
     /// # Errors
     /// What a hook reports.
-    pub(in crate::world) fn detect(&mut self, dt: Real, spread: Real) -> Result<()> {
+    pub(in crate::world) fn detect(&mut self, dt: Real) -> Result<()> {
         let step = Step { dt, gravity: self.state.settings.gravity };
         // What is about to be touched wakes, and may touch others that sleep.
         loop {
-            let called = self.find_near(&step, spread)?;
+            let called = self.find_near(&step)?;
             if called.is_empty() {
                 return self.ask_before_solving();
             }
@@ -30,11 +30,10 @@ impl World {
     }
 
     /// Finds pairs and manifolds. Returns the sleeping islands that are about to be touched.
-    fn find_near(&mut self, step: &Step, spread: Real) -> Result<Vec<u32>> {
+    fn find_near(&mut self, step: &Step) -> Result<Vec<u32>> {
         let Self { state, plan, scratch, hooks, .. } = self;
         let Some(plan) = plan else { return Ok(Vec::new()) };
         let (contacts, bodies, settings) = (&mut state.contacts, &state.bodies, &state.settings);
-        contacts.spread = spread;
         contacts.follow(bodies, &plan.colliding, step);
         contacts.pair_up(bodies, &settings.mixing, hooks.as_deref())?;
         contacts.order(bodies, settings.gravity);
@@ -62,6 +61,21 @@ impl Step {
 }
 
 impl Contacts {
+    /// How far one of these bodies may be thrown in the step (m).
+    pub(super) fn spread_of<const N: usize>(&self, bodies: [usize; N]) -> Real {
+        let of = |i: usize| self.spread.get(i).copied().unwrap_or_default();
+        bodies.into_iter().map(of).fold(0.0, Real::max)
+    }
+
+    /// Bodies that were thrown farther than was looked may be thrown twice as far.
+    pub(in crate::world) fn spread_out(&mut self, thrown: &[(u32, Real)]) {
+        self.spread.resize(self.of_body.len(), 0.0);
+        for (body, way) in thrown {
+            let spread = &mut self.spread[*body as usize];
+            *spread = spread.max(2.0 * way);
+        }
+    }
+
     /// Moves the boxes after the bodies.
     fn follow(&mut self, bodies: &Bodies, moving: &[u32], step: &Step) {
         let moved = std::mem::take(&mut self.moved);
@@ -71,19 +85,17 @@ impl Contacts {
             let frame = Frame::of(&bodies.poses[i]);
             self.frames[i] = frame;
             let motion = step.motion(bodies, i);
+            let spread = self.spread_of([i]);
             let mut width = Real::INFINITY;
             for proxy in &self.of_body[i] {
                 let collider = &self.entries[proxy.0 as usize].collider;
-                self.broad.update(
-                    *proxy,
-                    &swept(collider, &frame, motion, self.spread),
-                    margin(collider),
-                );
+                self.broad.post(*proxy, &swept(collider, &frame, motion, spread), margin(collider));
                 width = width.min(collider.width);
             }
-            self.covered[i] = motion.0.norm().max(self.spread) + 0.5 * width;
-            self.far |= self.spread > 0.0 || motion.0.norm() > FAR * width || motion.1 > FAR;
+            self.covered[i] = motion.0.norm().max(spread) + 0.5 * width;
+            self.far |= spread > 0.0 || motion.0.norm() > FAR * width || motion.1 > FAR;
         }
+        self.broad.settle();
         self.moved = moved;
         self.moved.clear();
     }
@@ -170,8 +182,8 @@ impl Contacts {
 
     /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
     fn find_manifolds(&mut self, bodies: &Bodies, step: &Step, found: &mut Vec<Manifold>) {
-        let spread = 2.0 * self.spread;
-        let Self { entries, near, patches, before, frames, .. } = self;
+        let Self { entries, near, patches, before, frames, spread, .. } = self;
+        let spread = |i: usize| spread.get(i).copied().unwrap_or_default();
         std::mem::swap(patches, before);
         patches.clear();
         for (place, pair) in near.iter_mut().enumerate() {
@@ -182,7 +194,8 @@ impl Contacts {
             }
             let [x, y] = pair.proxies.map(|proxy| &entries[proxy.0 as usize].collider);
             let [i, j] = [x.body as usize, y.body as usize];
-            let margin = 0.02 * x.width.min(y.width) + way_to_meet(bodies, step, [x, y]) + spread;
+            let way = way_to_meet(bodies, step, [x, y], pair.touch.restitution);
+            let margin = 0.02 * x.width.min(y.width) + way + spread(i) + spread(j);
             found.clear();
             collide(&x.geometry, &y.geometry, &frames[j].seen_from(&frames[i]), margin, found);
             if let Kind::OneWay { solid } = &mut pair.kind {
@@ -225,14 +238,19 @@ fn comes_from_its_side(
     !found.is_empty() && found.iter().all(stands)
 }
 
-/// How far two colliders can come together in a step (m). One that moves far may bounce, so that it counts by itself;
-/// slower ones count by how they move against one another.
-fn way_to_meet(bodies: &Bodies, step: &Step, pair: [&Collider; 2]) -> Real {
+/// How far two colliders can come together in a step (m). One that moves far may be stopped or turned, so that it counts by
+/// itself, and what bounces counts twice; slower ones count by how they move against one another.
+fn way_to_meet(bodies: &Bodies, step: &Step, pair: [&Collider; 2], restitution: Real) -> Real {
     let motions = pair.map(|collider| step.motion(bodies, collider.body as usize));
     let turns: Real = (0..2).map(|k| motions[k].1.min(2.0) * pair[k].reach).sum();
     let lengths = motions.map(|(way, _)| way.norm());
     let far = (0..2).any(|k| lengths[k] > FAR * pair[k].width);
-    let ways = if far { lengths[0] + lengths[1] } else { (motions[1].0 - motions[0].0).norm() };
+    let [shorter, longer] = [lengths[0].min(lengths[1]), lengths[0].max(lengths[1])];
+    let ways = if far {
+        longer + restitution.min(1.0) * shorter
+    } else {
+        (motions[1].0 - motions[0].0).norm()
+    };
     ways + turns
 }
 

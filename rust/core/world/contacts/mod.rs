@@ -66,9 +66,9 @@ pub(super) struct Contacts {
     /// Frames of the bodies' centres of mass, in body order.
     #[serde(skip)]
     frames: Vec<Frame>,
-    /// How far any body may be thrown in the step (m), where one was thrown before; else 0.
+    /// How far each body may be thrown in the step (m), where some were thrown before; else empty.
     #[serde(skip)]
-    pub spread: Real,
+    pub spread: Vec<Real>,
     /// Some body moves far in the step.
     #[serde(skip)]
     pub far: bool,
