@@ -26,9 +26,12 @@ impl Memory {
     /// Of a contact that is new.
     pub const NEW: Self = Self { impulse: [0.0; 3], rolling: 0.0, sliding: false };
 
-    /// For a substep this many times as long: the same forces.
+    /// For a substep this many times as long: the same forces. Times too small for that leave nothing to remember.
     #[must_use]
     pub fn scaled(self, by: Real) -> Self {
+        if !by.is_finite() {
+            return Self { sliding: self.sliding, ..Self::NEW };
+        }
         Self { impulse: self.impulse.map(|p| p * by), rolling: self.rolling * by, ..self }
     }
 }

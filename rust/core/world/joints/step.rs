@@ -43,6 +43,9 @@ pub(in crate::world) fn tied(bodies: &Bodies, joint: &Joint) -> Option<[u32; 2]>
     }
 }
 
+/// Times as long as the last a substep may be for joints to begin with the forces of the last.
+const MOST_LONGER: Real = 1e7;
+
 /// A joint for a group whose bodies stand in these slots; h is the length of a substep.
 pub(in crate::world) fn tie(
     bodies: &Bodies,
@@ -51,6 +54,8 @@ pub(in crate::world) fn tie(
     h: Real,
 ) -> Tie {
     let scale = if joint.substep > 0.0 { h / joint.substep } else { 1.0 };
+    // What a vastly shorter step swallowed says nothing of a longer one.
+    let scale = if scale < MOST_LONGER { scale } else { 0.0 };
     let centers = centers_of(bodies, joint);
     let impulses = joint.impulses.map(|impulse| impulse * scale);
     let mut tie = Tie::new(law_of(bodies, joint), slots, place, impulses);
@@ -64,8 +69,10 @@ pub(in crate::world) fn keep(joints: &mut [Joint], group: &Group, (duration, h):
     for tie in &group.ties.list {
         let joint = &mut joints[tie.place as usize];
         (joint.impulses, joint.substep) = (tie.impulses, h);
-        let given = tie.given;
-        joint.reaction = Wrench::new(given.force / duration, given.torque / duration);
+        let mean = Wrench::new(tie.given.force / duration, tie.given.torque / duration);
+        // In a step so short that a force is no number any more there was none.
+        let finite = mean.force.norm_squared().is_finite() && mean.torque.is_finite();
+        joint.reaction = if finite { mean } else { Wrench::ZERO };
     }
 }
 

@@ -22,7 +22,8 @@ pub fn prepare(group: &mut Group, h: Real) {
             let (now, start) = (&tie.middle.rows[k], &tie.end.rows[k]);
             let row = &mut rows[tie.first_row + k];
             *row = Row { impulse: tie.impulses[k], from: start.position, ..Row::default() };
-            let most = now.bound * h;
+            // Also in a step so short that its length is no number above 0.
+            let most = if now.bound.is_finite() { now.bound * h } else { Real::INFINITY };
             row.bounds = [-most, most];
             let along = now.velocity(twists);
             let curve = start.velocity(twists) - along;
