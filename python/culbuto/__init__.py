@@ -34,6 +34,7 @@ A bad number or shape is a `ValueError`; what was removed from its world, a `Sta
 motion that cannot go on, a `SimulationError`.
 """
 
+from culbuto import builders
 from culbuto._native import (
     Arc,
     Attraction,
@@ -176,6 +177,7 @@ __all__ = [
     "WheelJoint",
     "World",
     "__version__",
+    "builders",
     "methods",
     "scene",
     "scene_schema",

@@ -28,6 +28,7 @@ from matplotlib.axes import Axes
 from numpy.typing import ArrayLike, DTypeLike, NDArray
 from typing_extensions import Self, Unpack, disjoint_base
 
+from culbuto import builders
 from culbuto.joints import Joint
 
 __all__ = [
@@ -78,15 +79,21 @@ __all__ = [
     "World",
     "_Joint",
     "__version__",
+    "bridge",
     "catalogue",
+    "chain",
     "exact_motion",
+    "lattice",
     "measured_order",
     "methods",
     "open_scene",
+    "ragdoll",
+    "rope",
     "scene_error",
     "scene_schema",
     "study",
     "thrown_ball",
+    "vehicle",
     "verify",
     "verify_laws",
 ]
@@ -2171,6 +2178,209 @@ def methods() -> list[Facts]:
     """Facts of every method, the default first."""
 
 # The catalogue and the report, as JSON: `culbuto.catalogue` and `culbuto.study` make classes of it.
+
+_End: TypeAlias = _Vec2Arg | tuple[Body, _Vec2Arg]
+
+def rope(
+    world: World,
+    start: _End,
+    end: _End,
+    *,
+    pinned: tuple[bool, bool] = ...,
+    length: float | None = None,
+    links: int = 20,
+    mass_per_length: float = 1.0,
+    points: bool = False,
+    radius: float | None = None,
+    bending_stiffness: float = 0.0,
+    bending_damping: float = 0.0,
+    breaking_force: float | None = None,
+    name: str = ...,
+) -> builders.Assembly:
+    """Adds a rope of links, or of points with rods between them.
+
+    It is laid out straight if it is as long as its ends are apart, else on an arc that hangs down.
+
+    Args:
+        world: To which it is added.
+        start: A point of the world, or a body and a point in its frame (m).
+        end: Likewise.
+        pinned: Whether start and end are held; only points of the world can be free.
+        length: m; None: as far as the ends are apart, and a thousandth more where both are fixed.
+        links: Their number.
+        mass_per_length: kg/m.
+        points: Points with rods, which touch nothing, instead of links.
+        radius: Half the thickness of links (m); None: a tenth of a link's length.
+        bending_stiffness: EI of links (N·m²).
+        bending_damping: Damping of bending (N·m²·s).
+        breaking_force: Above which a joint breaks (N); None: never.
+        name: Bodies are called "rope 0" and so on, joints "rope joint 0".
+
+    Raises:
+        ValueError: A number is not allowed, among them a length below the distance of the ends,
+            or no slack between fixed ones.
+        StaleHandleError: A body was removed, or belongs to another world.
+    """
+
+def chain(
+    world: World,
+    start: _End,
+    end: _End,
+    *,
+    pinned: tuple[bool, bool] = ...,
+    length: float | None = None,
+    links: int = 20,
+    mass_per_length: float = 1.0,
+    wire: float | None = None,
+    breaking_force: float | None = None,
+    name: str = ...,
+) -> builders.Assembly:
+    """Adds a chain of links, seen from the side: one broad, the next on edge.
+
+    Arguments and errors are those of `rope`, but for `wire`: its thickness (m); None: a third of
+    the way from one link to the next.
+    """
+
+def bridge(
+    world: World,
+    start: _End,
+    end: _End,
+    *,
+    pinned: tuple[bool, bool] = ...,
+    length: float | None = None,
+    planks: int = 12,
+    mass_per_length: float = 1.0,
+    thickness: float | None = None,
+    breaking_force: float | None = None,
+    name: str = ...,
+) -> builders.Assembly:
+    """Adds planks hinged end to end.
+
+    Arguments and errors are those of `rope`, but for the number of `planks` and their `thickness`
+    (m); None: a fifth of a plank's length.
+    """
+
+def ragdoll(
+    world: World,
+    height: float,
+    mass: float,
+    *,
+    position: _Vec2Arg = ...,
+    angle: float = 0.0,
+    velocity: _Vec2Arg = ...,
+    faces_left: bool = False,
+    limits: bool = True,
+    hertz: float | None = None,
+    damping_ratio: float = 0.0,
+    friction_torque: float = 0.0,
+    group: int | None = None,
+    breaking_force: float | None = None,
+    name: str = ...,
+) -> builders.Ragdoll:
+    """Adds a human figure of eleven capsules and ten hinges, seen from the side, standing upright.
+
+    Args:
+        world: To which it is added.
+        height: m.
+        mass: Of the whole (kg).
+        position: Where the soles stand (m).
+        angle: Turn of the whole about that point (rad).
+        velocity: Of all bones (m/s).
+        faces_left: Instead of right: all limits the other way.
+        limits: Whether the hinges have limits.
+        hertz: Of the spring in each hinge, which draws it upright (Hz); None: no spring.
+        damping_ratio: Of that spring.
+        friction_torque: With which every hinge resists turning (N·m).
+        group: Of all bones; below 0 they never touch each other. None: one of its own.
+        breaking_force: Above which a hinge breaks (N); None: never.
+        name: Bodies are called "ragdoll pelvis" and so on, hinges after what hangs on them.
+
+    Raises:
+        ValueError: A number is not allowed.
+    """
+
+def vehicle(
+    world: World,
+    length: float,
+    mass: float,
+    *,
+    position: _Vec2Arg = ...,
+    angle: float = 0.0,
+    velocity: _Vec2Arg = ...,
+    height: float | None = None,
+    wheel_base: float | None = None,
+    wheel_radius: float | None = None,
+    wheel_mass: float | None = None,
+    suspension_hertz: float = 2.0,
+    suspension_damping_ratio: float = 0.7,
+    suspension_travel: float | None = None,
+    speed: float = 0.0,
+    max_torque: float | None = None,
+    driven: tuple[bool, bool] = ...,
+    name: str = ...,
+) -> builders.Vehicle:
+    """Adds a chassis on two wheels, in the balance of its springs; the front is on the right.
+
+    Args:
+        world: To which it is added.
+        length: Of the chassis (m).
+        mass: Of the chassis (kg).
+        position: The point of the ground midway between its wheels (m).
+        angle: Of the ground (rad).
+        velocity: With which it starts, wheels not turning (m/s).
+        height: Of the chassis (m); None: a quarter of its length.
+        wheel_base: Distance of the axles (m); None: 0.6 of the length.
+        wheel_radius: m; None: an eighth of the length.
+        wheel_mass: Of each (kg); None: a twentieth of the chassis.
+        suspension_hertz: Frequency at which the chassis bounces (Hz).
+        suspension_damping_ratio: Of that.
+        suspension_travel: How far a wheel goes up and down (m); None: half its radius.
+        speed: That the motor drives at, to the right (m/s).
+        max_torque: On a driven wheel (N·m); None: an eighth of the weight times the wheel's radius.
+        driven: Whether the rear wheel has a motor, and the front wheel.
+        name: Bodies are called "vehicle chassis" and so on, joints "vehicle rear axle".
+
+    Raises:
+        ValueError: A number is not allowed.
+    """
+
+def lattice(
+    world: World,
+    outline: ArrayLike,
+    spacing: float,
+    *,
+    stiffness: float | None = None,
+    young: float | None = None,
+    holes: Iterable[ArrayLike] | None = None,
+    pattern: Literal["triangular", "square", "braced_square"] = ...,
+    damping_ratio: float = 0.02,
+    mass_per_area: float = 1.0,
+    radius: float | None = None,
+    velocity: _Vec2Arg = ...,
+    breaking_force: float | None = None,
+    name: str = ...,
+) -> builders.Lattice:
+    """Adds points that fill a polygon, with springs at rest between neighbours.
+
+    Args:
+        world: To which it is added.
+        outline: A simple polygon (n, 2) in the world (m).
+        spacing: Distance of neighbours (m). Cells not wholly inside are left out.
+        stiffness: k of a spring between two points inside (N/m), or else
+        young: Young's modulus times depth (N/m): one of the two is given.
+        holes: Polygons, each (n, 2) (m).
+        pattern: Triangles, squares, or squares with diagonals.
+        damping_ratio: Of a spring between two points inside, alone.
+        mass_per_area: kg/m².
+        radius: Of the disks that touch what is around (m); None: half the spacing. 0: nothing does.
+        velocity: Of all points (m/s).
+        breaking_force: Above which a spring breaks (N); None: never.
+        name: Bodies are called "lattice 0" and so on, joints "lattice joint 0".
+
+    Raises:
+        TypeError: Neither stiffness nor young is given, or both are.
+        ValueError: The outline is no simple polygon, a number is not allowed, or no cell is inside.
+    """
 
 def catalogue() -> str:
     """Every scene of the catalogue."""

@@ -9,6 +9,7 @@ mod add_body;
 mod arrays;
 mod body;
 mod body_def;
+mod builders;
 mod catalogue;
 mod code;
 mod contacts;
@@ -48,6 +49,8 @@ mod world;
 mod culbuto_native {
     #[pymodule_export]
     use crate::body::Body;
+    #[pymodule_export]
+    use crate::builders::{bridge, chain, lattice, ragdoll, rope, vehicle};
     #[pymodule_export]
     use crate::catalogue::{
         catalogue, exact_motion, measured_order, open_scene, scene_error, study, thrown_ball,
