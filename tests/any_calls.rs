@@ -279,7 +279,9 @@ fn agree(world: &World, model: &Model) -> Result<(), TestCaseError> {
     prop_assert_eq!(joints, known);
     for joint in world.joint_handles() {
         let joint = world.joint(*joint).unwrap();
-        prop_assert!(joint.reaction().force.norm().is_finite() && joint.gap() >= 0.0);
+        // Of masses of 1e300 kg forces are numbers, their squares none.
+        prop_assert!(joint.reaction().force.iter().all(|x| x.is_finite()));
+        prop_assert!(joint.gap() >= 0.0);
     }
     for body in &model.gone {
         prop_assert!(world.body(*body).is_err());
