@@ -184,8 +184,8 @@ pub fn place(group: &mut Group) {
 }
 
 /// Books what joints did in the substep, and returns what they gave the bodies that give way (J). With the velocities at
-/// the start of the substep, its kicks and the present ones an impulse p does the work p·½J(v⁻ + v⁺), as in
-/// contacts are booked. What motors and bodies with given motion do is work.
+/// the start of the substep, its kicks and the present ones an impulse p does the work p·½J(v⁻ + v⁺), as
+/// with contacts. What motors and bodies with given motion do is work.
 pub fn book(group: &mut Group, h: Real, ledger: &mut Ledger) -> Real {
     let Group { ties, velocities, places, free, .. } = group;
     let mean = |slot: u32| {
