@@ -2,7 +2,8 @@
 
 use culbuto::math::{Real, Vec2};
 use culbuto::world::Column;
-use numpy::{PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
+use numpy::ndarray::Dimension;
+use numpy::{PyArray, PyArray1, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
@@ -15,21 +16,35 @@ type Array1<'py> = Bound<'py, PyArray1<Real>>;
 type Array2<'py> = Bound<'py, PyArray2<Real>>;
 
 impl World {
-    /// Fills an array that has a place for every number of a column.
-    fn fill(&self, py: Python<'_>, column: Column, out: &mut [Real]) -> PyResult<()> {
-        self.core(py)?.fill_column(column, out).map_err(to_py)
+    /// A column in an array that `make` makes for a number of bodies. Python objects are not made while the core is
+    /// locked; where another thread adds or removes bodies meanwhile, the array is made anew.
+    fn column<'py, D: Dimension>(
+        &self,
+        py: Python<'py>,
+        column: Column,
+        make: impl Fn(usize) -> Bound<'py, PyArray<Real, D>>,
+    ) -> PyResult<Bound<'py, PyArray<Real, D>>> {
+        loop {
+            let array = make(self.objects().bodies.len());
+            {
+                let mut out = array.try_readwrite()?;
+                let out = out.as_slice_mut()?;
+                let core = self.core(py)?;
+                if out.len() == column.width() * core.bodies().len() {
+                    core.fill_column(column, out).map_err(to_py)?;
+                    break Ok(array);
+                }
+            }
+            py.detach(std::thread::yield_now);
+        }
     }
 
     fn vectors<'py>(&self, py: Python<'py>, column: Column) -> PyResult<Array2<'py>> {
-        let array = PyArray2::zeros(py, [self.objects().bodies.len(), 2], false);
-        self.fill(py, column, array.try_readwrite()?.as_slice_mut()?)?;
-        Ok(array)
+        self.column(py, column, |bodies| PyArray2::zeros(py, [bodies, 2], false))
     }
 
     fn numbers<'py>(&self, py: Python<'py>, column: Column) -> PyResult<Array1<'py>> {
-        let array = PyArray1::zeros(py, self.objects().bodies.len(), false);
-        self.fill(py, column, array.try_readwrite()?.as_slice_mut()?)?;
-        Ok(array)
+        self.column(py, column, |bodies| PyArray1::zeros(py, bodies, false))
     }
 
     fn write(&self, py: Python<'_>, column: Column, values: &Bound<'_, PyAny>) -> PyResult<()> {
@@ -180,7 +195,7 @@ impl World {
         let mut view = array
             .try_readwrite()
             .map_err(|error| PyValueError::new_err(format!("out cannot be written: {error}")))?;
-        world.fill(py, column, view.as_slice_mut()?)?;
+        world.core(py)?.fill_column(column, view.as_slice_mut()?).map_err(to_py)?;
         drop(view);
         Ok(out)
     }

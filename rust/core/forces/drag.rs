@@ -63,14 +63,19 @@ pub fn resists(info: &Info, air: Air) -> bool {
 /// that kind.
 pub fn facet(info: &Info, air: Air, (pose, twist): (&Pose, &Twist)) -> Option<Facet> {
     let kinks = has_drag(info, air) && info.def.drag_width == DragWidth::Silhouette;
-    kinks.then(|| info.silhouette.facet(pose.rot().apply_inverse(twist.linear - air.wind)))
+    kinks.then(|| info.silhouette.facet(heading(air, (pose, twist))))
+}
+
+/// The way a body goes through the air, in its own frame (m/s).
+pub fn heading(air: Air, (pose, twist): (&Pose, &Twist)) -> Vec2 {
+    pose.rot().apply_inverse(twist.linear - air.wind)
 }
 
 /// Whether a facet still gives the width that the body shows to the air.
 pub fn shows(info: &Info, air: Air, (pose, twist): (&Pose, &Twist), facet: &Facet) -> bool {
     // Next to a kink both facets give the same width; rounding must not send steps back and forth.
     const SAME: Real = 1e-10;
-    let direction = pose.rot().apply_inverse(twist.linear - air.wind);
+    let direction = heading(air, (pose, twist));
     let width = info.silhouette.width_across(direction);
     (width - facet.width_across(direction)).abs() <= SAME * width
 }

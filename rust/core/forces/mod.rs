@@ -72,13 +72,37 @@ pub struct Forces<'a> {
     pub resistance: bool,
     /// Columns to work in.
     pub buffers: &'a mut ForceBuffers,
-    /// The facets of the bodies' silhouettes that the air is let see, whatever way they turn; empty:
-    /// the true silhouettes. With them forces are smooth, and a method can end its steps at the kinks.
-    pub facets: Facets,
-    /// An evaluation since this was cleared met a body that shows another facet.
-    pub kinked: bool,
+    /// What the air is let see of the bodies.
+    pub shown: Shown,
     /// Force evaluations so far.
     pub evaluations: u64,
+}
+
+/// What the air is let see of the bodies by a method that ends its steps at the kinks of their silhouettes. Default:
+/// the true silhouettes.
+#[derive(Debug, Default)]
+pub struct Shown {
+    /// The facets that the air sees, whatever way the bodies turn: with them forces are smooth.
+    pub facets: Facets,
+    /// Since this was cleared an evaluation met a body that shows another facet, or one that may have done so in
+    /// between: the way it turns to the air has changed.
+    pub kinked: bool,
+    /// Whether each body turned to the left, seen from the air, at the last evaluation.
+    left: Vec<Option<bool>>,
+}
+
+impl Shown {
+    /// Shows the air other facets.
+    pub fn show(&mut self, facets: Facets) {
+        self.left.resize(facets.len(), None);
+        self.facets = facets;
+    }
+
+    /// Takes in how fast the air's direction turns as a body sees it (rad/s).
+    fn turn(&mut self, body: usize, rate: Real) {
+        let left = rate > 0.0;
+        self.kinked |= self.left[body].replace(left) == Some(!left);
+    }
 }
 
 impl Forces<'_> {
@@ -144,14 +168,22 @@ impl Forces<'_> {
         let mut dissipated = 0.0;
         for i in 0..if self.resistance { poses.len() } else { 0 } {
             let (info, state) = (&self.infos[self.place(i)], (&poses[i], &twists[i]));
-            let facet = self.facets.get(i).and_then(Option::as_ref);
-            self.kinked |= facet.is_some_and(|facet| !drag::shows(info, self.air, state, facet));
+            let facet = self.shown.facets.get(i).and_then(Option::as_ref);
+            self.shown.kinked |=
+                facet.is_some_and(|facet| !drag::shows(info, self.air, state, facet));
             if let Some(resisting) = drag::resistance(&self.masses[i], info, self.air, state, facet)
             {
                 let a = self.masses[i].acceleration(&resisting);
                 out[i].linear += a.linear;
                 out[i].angular += a.angular;
                 dissipated -= power(&resisting, &twists[i], &self.masses[i]);
+            }
+            if !self.shown.facets.is_empty() {
+                let relative = twists[i].linear - self.air.wind;
+                self.shown.turn(
+                    i,
+                    relative.perp(&out[i].linear) / relative.norm_squared() - twists[i].angular,
+                );
             }
         }
         Ok(Ledger { work: self.working_power(twists), dissipated, ..Ledger::default() })
@@ -169,9 +201,15 @@ impl Forces<'_> {
     #[must_use]
     pub fn shows_facets(&self, poses: &[Pose], twists: &[Twist]) -> bool {
         let states = poses.iter().zip(twists);
-        self.facets.iter().zip(states).enumerate().all(|(i, (facet, state))| {
+        self.shown.facets.iter().zip(states).enumerate().all(|(i, (facet, state))| {
             facet.as_ref().is_none_or(|facet| drag::shows(self.info(i), self.air, state, facet))
         })
+    }
+
+    /// The way a body goes through the air, in its own frame (m/s).
+    #[must_use]
+    pub fn heading(&self, pose: &Pose, twist: &Twist) -> Vec2 {
+        drag::heading(self.air, (pose, twist))
     }
 
     /// Whether any force of the last evaluation does work that no potential accounts for.

@@ -107,6 +107,9 @@ const IN_PLACE: Real = 1e-9;
 /// Turns in place before a step is made all the same: a body at rest in the air turns with every rounding.
 const TURNS_IN_PLACE: u32 = 4;
 
+/// Steps that are tried in one run before the tolerance is said to be out of reach: no call goes on for days unasked.
+const MOST_STEPS: u64 = 1_000_000;
+
 /// A run of DOP853 to a tolerance. Steps end where a body's silhouette has a kink: between kinks
 /// forces are smooth, and the error of a step is what its estimate says.
 pub struct Adaptive<'a> {
@@ -170,7 +173,10 @@ impl<'a> Adaptive<'a> {
         let mut passed = 0.0;
         let mut h = self.first_step(y);
         let mut turn: Option<Turn> = None;
+        let mut tries = 0;
         while passed < self.span.duration {
+            tries += 1;
+            self.refuse_many(tries, passed)?;
             watch().map_err(|source| Error::Interrupted { source })?;
             let rest = self.span.duration - passed;
             // A last step that would leave a sliver takes it along.
@@ -178,7 +184,7 @@ impl<'a> Adaptive<'a> {
             h = if last { rest } else { h.min(rest) };
             let time = self.span.start + passed;
             self.refuse_tiny(h, passed)?;
-            system.forces.kinked = false;
+            system.forces.shown.kinked = false;
             stages(y, system, time, h)?;
             let error = self.error(y, h);
             if !error.is_finite() || error > 1.0 {
@@ -192,7 +198,7 @@ impl<'a> Adaptive<'a> {
             // Before its slope is taken, so that the next step and dense output go on from there.
             y.settle_stage(system, motion);
             y.slope_of_stage(12, system, end)?;
-            if system.forces.kinked
+            if system.forces.shown.kinked
                 && turn.is_none()
                 && self.turns_in_place < TURNS_IN_PLACE
                 && let Some((part, facets)) = first_kink(y, system, (time, h))?
@@ -231,7 +237,7 @@ impl<'a> Adaptive<'a> {
 
     /// Lets the air see the bodies' new facets, from the state on.
     fn turn(&self, y: &mut Columns, system: &mut System<'_>, time: Real, turn: Turn) -> Result<()> {
-        system.forces.facets = turn.facets;
+        system.forces.shown.show(turn.facets);
         y.slope_of_state(0, system, time)
     }
 
@@ -260,14 +266,29 @@ impl<'a> Adaptive<'a> {
         if h > 8.0 * Real::EPSILON * time.abs().max(self.span.duration) {
             return Ok(());
         }
-        Err(Error::Tolerance {
-            tolerance: self.control.tolerance,
+        Err(self.gave_up(
             time,
-            why: format!(
+            format!(
                 "the step fell to {h:.1e} s after {} steps; a larger tolerance, or a force without jumps, would do",
                 self.progress.steps
             ),
-        })
+        ))
+    }
+
+    /// No more steps in a run than anyone waits for.
+    fn refuse_many(&self, tries: u64, passed: Real) -> Result<()> {
+        if tries <= MOST_STEPS {
+            return Ok(());
+        }
+        let why = format!(
+            "{MOST_STEPS} steps led {passed:.1e} s of {:.1e} s far; ask for less at once",
+            self.span.duration
+        );
+        Err(self.gave_up(self.span.start + passed, why))
+    }
+
+    fn gave_up(&self, time: Real, why: String) -> Error {
+        Error::Tolerance { tolerance: self.control.tolerance, time, why }
     }
 
     /// Local error of a step over the tolerance: |h|·e₅²/√(e₅² + 0.01 e₃²), e₅ and e₃ the largest

@@ -1,7 +1,7 @@
 //! Dense output of DOP853, and the kinks of a force that it finds.
 
 use crate::error::Result;
-use crate::forces::Facets;
+use crate::forces::{Facets, Forces};
 use crate::math::Real;
 use crate::methods::System;
 use crate::methods::dop853::{DENSE_STAGES, STAGES};
@@ -57,22 +57,64 @@ pub fn first_kink(
     system: &mut System<'_>,
     (time, h): (Real, Real),
 ) -> Result<Option<(Real, Facets)>> {
-    const LOOKS: u32 = 16;
-    const HALVINGS: u32 = 40;
     let dense = Dense::new(y, system, time, h)?;
+    let forces = &system.forces;
     let shows = |x: Real| {
         let state = dense.at(x);
         let (poses, twists) = first_order::split(&state);
-        system.forces.shows_facets(poses, twists)
+        forces.shows_facets(poses, twists)
     };
-    let look = |k: u32| Real::from(k) / Real::from(LOOKS);
-    let Some(k) = (1..=LOOKS).find(|&k| !shows(look(k))) else { return Ok(None) };
-    let (mut before, mut after) = (look(k - 1), look(k));
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (before + after);
-        *(if shows(middle) { &mut before } else { &mut after }) = middle;
+    let mut looks: Vec<Real> = (1..=LOOKS).map(look).collect();
+    for body in 0..forces.shown.facets.len() {
+        extremes(|x| turns_left(&dense, forces, body, x), &mut looks);
     }
+    looks.sort_unstable_by(Real::total_cmp);
+    let Some(k) = looks.iter().position(|x| !shows(*x)) else { return Ok(None) };
+    let before = if k > 0 { looks[k - 1] } else { 0.0 };
+    let after = last_change(before, looks[k], shows);
     let state = dense.at(after);
     let (poses, twists) = first_order::split(&state);
-    Ok(Some((after, system.forces.facets_of(poses, twists))))
+    Ok(Some((after, forces.facets_of(poses, twists))))
+}
+
+/// How often a step is looked at.
+const LOOKS: u32 = 16;
+
+fn look(k: u32) -> Real {
+    Real::from(k) / Real::from(LOOKS)
+}
+
+/// Adds where, between two looks, what is true at one and not at the other changes. Kinks stand at given directions of
+/// the air: one that is passed and passed back between two looks lies around such a place.
+fn extremes(left: impl Fn(Real) -> bool, looks: &mut Vec<Real>) {
+    let mut before = left(0.0);
+    for k in 1..=LOOKS {
+        let now = left(look(k));
+        if now != before {
+            looks.push(last_change(look(k - 1), look(k), |x| left(x) == before));
+        }
+        before = now;
+    }
+}
+
+/// Where what is true at `before` and not at `after` ceases to be, from above.
+fn last_change(mut before: Real, mut after: Real, is: impl Fn(Real) -> bool) -> Real {
+    const HALVINGS: u32 = 40;
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (before + after);
+        *(if is(middle) { &mut before } else { &mut after }) = middle;
+    }
+    after
+}
+
+/// Whether the air's direction, seen from a body, turns to the left at a fraction of a step.
+fn turns_left(dense: &Dense, forces: &Forces<'_>, body: usize, x: Real) -> bool {
+    /// A difference of angles over this part of a step is far above rounding.
+    const APART: Real = 1e-4;
+    let ends = [x - 0.5 * APART, x + 0.5 * APART].map(|x| {
+        let state = dense.at(x);
+        let (poses, twists) = first_order::split(&state);
+        forces.heading(&poses[body], &twists[body])
+    });
+    ends[0].perp(&ends[1]) > 0.0
 }

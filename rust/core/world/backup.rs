@@ -16,9 +16,9 @@ pub(super) struct Backup {
     slow: Vec<Real>,
     /// Forces for the next step; empty where there are none.
     applied: Vec<Wrench>,
-    /// Contacts, where the plan looks for any.
+    /// Contacts, where a step can change them.
     contacts: ContactBackup,
-    /// Whether it did.
+    /// Whether it can.
     collides: bool,
     clock: Clock,
     ledger: Ledger,
@@ -82,12 +82,6 @@ impl Backup {
         if applied {
             self.applied.extend_from_slice(&bodies.applied);
         }
-        if plan.colliding.is_empty() {
-            self.collides = false;
-        } else {
-            self.collides = true;
-            self.contacts.save(&mut state.contacts);
-        }
         state.contacts.sleep.record(true);
         (self.clock, self.ledger) = (state.clock, state.ledger);
         self.changes.clear();
@@ -97,6 +91,11 @@ impl Backup {
             joint.def.breaking_force.is_some() || joint.def.breaking_torque.is_some()
         };
         self.breakable = state.joints.values().iter().any(breaks).then(|| state.joints.clone());
+        // What a joint that breaks tied is looked at anew.
+        self.collides = !plan.colliding.is_empty() || self.breakable.is_some();
+        if self.collides {
+            self.contacts.save(&mut state.contacts);
+        }
     }
 
     /// Puts the state back, and says whether forces wait for the next step.

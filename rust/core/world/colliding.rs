@@ -51,13 +51,17 @@ impl World {
                 } else {
                     world.step_doubled(dt, tolerance)?
                 };
+                world.settle_joints()?;
+                world.planned();
                 // What is left before a stop by rounding is none.
                 passed =
                     if stop - (passed + taken) <= 1e-12 * duration { stop } else { passed + taken };
                 step = proposed;
                 watch().map_err(|source| Error::Interrupted { source })?;
             }
-            world.notice();
+            if world.notices() {
+                world.notice();
+            }
             world.finish(duration)?;
             trajectory.in_frames(&world.state.bodies);
             trajectory.shift(start);
@@ -69,8 +73,10 @@ impl World {
     /// something may.
     fn step_apart(&mut self, dt: Real, tolerance: Real, watch: &mut Watch<'_>) -> Result<bool> {
         let before = self.state.clone();
-        self.state.contacts.spread.clear();
-        self.detect(dt)?;
+        if self.meets() {
+            self.state.contacts.spread.clear();
+            self.detect(dt)?;
+        }
         self.scratch.contacts.methods = true;
         self.find_islands();
         if self.scratch.contacts.is_idle() {
@@ -79,7 +85,7 @@ impl World {
                 world.advance_to_tolerance(span, tolerance, (start, &mut none), watch)
             })?;
             // Detection foresaw the ways by velocity and gravity; other forces may have led farther.
-            if self.state.contacts.foresaw(&before.bodies, &self.state.bodies) {
+            if !self.meets() || self.state.contacts.foresaw(&before.bodies, &self.state.bodies) {
                 return Ok(true);
             }
         }
@@ -94,11 +100,11 @@ impl World {
         let before = self.state.clone();
         self.scratch.contacts.methods = false;
         for _ in 0..MOST_TRIES {
-            self.collide_and_advance(dt)?;
+            self.meet_and_advance(dt)?;
             let coarse = self.go_back(&before);
             self.events.hit.truncate(hits);
             self.state.settings.substeps = 2 * substeps;
-            let fine = self.collide_and_advance(dt);
+            let fine = self.meet_and_advance(dt);
             self.state.settings.substeps = substeps;
             fine?;
             let error = self.error_against(&before, &coarse) / 3.0;

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::body::Bodies;
 use crate::error::{Error, Result, check};
-use crate::forces::Forces;
+use crate::forces::{Forces, Shown};
 use crate::math::{Real, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, System, Watch};
@@ -58,12 +58,7 @@ impl World {
         })?;
         self.scratch.contacts.start = self.state.clock.now;
         self.scratch.contacts.methods = self.method.facts().joints;
-        if self.plan.as_ref().is_some_and(|plan| plan.colliding.is_empty()) {
-            self.join()?;
-            self.stage("advance", |world| world.each_span(dt, World::advance_span))?;
-        } else {
-            self.collide_and_advance(dt)?;
-        }
+        self.meet_and_advance(dt)?;
         if self.notices() {
             self.stage("events", |world| {
                 world.notice();
@@ -87,9 +82,18 @@ impl World {
         Ok(())
     }
 
+    /// The stages that move the world: those of contact only where bodies can meet.
+    pub(super) fn meet_and_advance(&mut self, dt: Real) -> Result<()> {
+        if self.meets() {
+            return self.collide_and_advance(dt);
+        }
+        self.join()?;
+        self.stage("advance", |world| world.each_span(dt, World::advance_span))
+    }
+
     /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
     /// or strikes what sleeps, the step is taken again with that in view, or awake.
-    pub(super) fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
+    fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
         let hits = self.events.hit.len();
         self.state.contacts.spread.clear();
         for tries in 1.. {
@@ -120,6 +124,11 @@ impl World {
         Ok(())
     }
 
+    /// Whether bodies can meet.
+    pub(super) fn meets(&self) -> bool {
+        self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty())
+    }
+
     /// Whether any joint does anything.
     fn joins(&self) -> bool {
         self.plan.as_ref().is_some_and(|plan| plan.joints > 0)
@@ -144,9 +153,8 @@ impl World {
     }
 
     /// Whether something can begin or end to touch in a step.
-    fn notices(&self) -> bool {
-        let colliding = self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty());
-        colliding || self.state.contacts.touching.changed()
+    pub(super) fn notices(&self) -> bool {
+        self.meets() || self.state.contacts.touching.changed()
     }
 
     /// Runs a stage, timed if timing is on.
@@ -311,8 +319,7 @@ impl World {
             fields,
             resistance,
             buffers: &mut scratch.forces,
-            facets: Vec::new(),
-            kinked: false,
+            shown: Shown::default(),
             evaluations: 0,
         };
         let motion = Motion { poses: &mut poses[run.clone()], twists: &mut twists[run], ledger };

@@ -12,7 +12,7 @@ use crate::collision::{Anchor, Collider, Manifold, Normal};
 use crate::constraints::contact::{Block, Touch, moved};
 use crate::constraints::{Place, Velocity};
 use crate::error::Result;
-use crate::forces::Forces;
+use crate::forces::{Forces, Shown};
 use crate::islands::Islands;
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, perp};
 use crate::methods::Span;
@@ -286,8 +286,7 @@ impl World {
             fields,
             resistance,
             buffers: &mut scratch.forces,
-            facets: Vec::new(),
-            kinked: false,
+            shown: Shown::default(),
             evaluations: 0,
         };
         let mut acting = Fields {

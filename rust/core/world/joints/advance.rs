@@ -6,7 +6,7 @@ use super::{centers_of, index_of, law_of, pair_of};
 use crate::body::{Bodies, Mass};
 use crate::constraints::joint::{Action, Row};
 use crate::error::Result;
-use crate::forces::{Forces, Ledger};
+use crate::forces::{Forces, Ledger, Shown};
 use crate::joint::Joint;
 use crate::math::{Pose, Real, Twist, Wrench, vec2};
 use crate::methods::joined::{Joints, Tie};
@@ -212,8 +212,7 @@ impl World {
             fields,
             resistance: plan.as_ref().is_some_and(|plan| plan.resistance),
             buffers: &mut scratch.forces,
-            facets: Vec::new(),
-            kinked: false,
+            shown: Shown::default(),
             evaluations: 0,
         };
         let mut booked = *ledger;
