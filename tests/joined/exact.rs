@@ -84,7 +84,7 @@ fn s11_double_pendulum() {
         assert_below("energy", world.energy().unwrap().balance().abs(), 1e-11);
     }
     let exact = vec2(1.092_597_830_169_892, -0.958_835_114_754_420_9);
-    for (tolerance, most, error) in [(5e-7, 880, 2e-6), (1e-11, 4000, 1e-11)] {
+    for (tolerance, most, error) in [(5e-6, 700, 2e-6), (1e-11, 4000, 1e-11)] {
         let mut world = double_pendulum("leapfrog");
         world.advance(3.0, tolerance).unwrap();
         let apart = (world.bodies().poses[1].position - exact).norm();
@@ -211,7 +211,8 @@ fn q2_heavy_end_of_a_chain() {
         world.advance(1.0, 1e-10).unwrap();
         for (k, handle) in world.joint_handles().iter().enumerate() {
             let joint = world.joint(*handle).unwrap();
-            assert_below("gap", joint.gap(), 1e-14);
+            // Gaps are closed to the rounding of places: 4ε for each body, some 20 m away.
+            assert_below("gap", joint.gap(), 2.0 * 4.0 * Real::EPSILON * 20.0);
             let below = (19 - k) as Real + ratio;
             let force = joint.reaction().force;
             assert_below("tension", (force.y / (below * G) - 1.0).abs(), 1e-10);

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::{Answer, Check, Column, Judged, Motion, Scene, Toleranced, at, weightless};
+use super::stage::with_tolerance;
+use super::{Answer, Judged, Motion, Scene, Toleranced, at, weightless};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::Central;
@@ -58,32 +59,26 @@ pub static KEPLER: Scene = Scene {
         judged: Judged::AllMethods,
     }),
     checks: &[
-        Check {
-            what: "position at t = 1 against (−0.628948176827, 0.799664730970)",
-            column: Column::Tolerance,
-            asked: 1e-10,
-            measure: || {
+        with_tolerance(
+            "position at t = 1 against (−0.628948176827, 0.799664730970)",
+            1e-10,
+            || {
                 let mut world = kepler()?;
                 world.advance(1.0, 1e-12)?;
                 let exact = vec2(-0.628_948_176_827, 0.799_664_730_970);
                 Ok((world.bodies().poses[0].position - exact).norm())
             },
-        },
-        Check {
-            what: "energy over 1000 orbits",
-            column: Column::Tolerance,
-            asked: 1e-9,
-            measure: || {
-                let mut world = kepler()?;
-                let before = world.energy()?.balance();
-                let mut worst: Real = 0.0;
-                for _ in 0..1000 {
-                    world.advance(TAU, 1e-13)?;
-                    worst = worst.max((world.energy()?.balance() / before - 1.0).abs());
-                }
-                Ok(worst)
-            },
-        },
+        ),
+        with_tolerance("energy over 1000 orbits", 1e-9, || {
+            let mut world = kepler()?;
+            let before = world.energy()?.balance();
+            let mut worst: Real = 0.0;
+            for _ in 0..1000 {
+                world.advance(TAU, 1e-13)?;
+                worst = worst.max((world.energy()?.balance() / before - 1.0).abs());
+            }
+            Ok(worst)
+        }),
     ],
 };
 

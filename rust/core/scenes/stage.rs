@@ -69,6 +69,15 @@ pub(super) const fn at_fixed_step(
     Check { what, column: Column::Fixed, asked, measure }
 }
 
+/// Something measured on runs to a tolerance.
+pub(super) const fn with_tolerance(
+    what: &'static str,
+    asked: Real,
+    measure: fn() -> Result<Real>,
+) -> Check {
+    Check { what, column: Column::Tolerance, asked, measure }
+}
+
 /// Value of a growing condition: the smallest number between two for which it holds.
 pub(super) fn threshold(
     [mut low, mut high]: [Real; 2],

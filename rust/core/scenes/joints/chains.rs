@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::joint::{JointDef, JointHandle};
 use crate::math::{PI, Real, Vec2, atan2, cos, vec2};
 use crate::scenes::gauge::{at_most, worse};
-use crate::scenes::stage::{DT, G, heavy};
+use crate::scenes::stage::{DT, G, heavy, with_tolerance};
 use crate::scenes::{Answer, Number, Scene};
 use crate::world::World;
 
@@ -62,6 +62,16 @@ fn swing_period(n: usize, x: Real) -> Result<Real> {
     Ok(2.0 * (passages[1] - passages[0]))
 }
 
+/// How far the lowest point is from the middle a quarter of a period after it was let go (s), of the quarter. Of a reach so
+/// small that the square of the angles does not count.
+fn quarter_off(n: usize, x: Real) -> Result<Real> {
+    let mut world = swinging(n, x, 1e-5)?;
+    let quarter = 0.5 * PI / libm::sqrt(G * x);
+    world.advance(quarter, 1e-13)?;
+    let bodies = world.bodies();
+    Ok((bodies.poses[n - 1].position.x / bodies.twists[n - 1].linear.x / quarter).abs())
+}
+
 pub static CHAIN_SWING: Scene = Scene {
     id: "S14",
     name: "hanging_chain_swing",
@@ -75,13 +85,21 @@ pub static CHAIN_SWING: Scene = Scene {
         };
         SWINGS.into_iter().map(number).collect()
     }),
-    checks: &[],
+    checks: &[with_tolerance("a quarter of the period, the worst, relative", 1e-8, || {
+        SWINGS.into_iter().try_fold(0.0, |sum, (n, x)| Ok(worse(sum, quarter_off(n, x)?)))
+    })],
 };
 
 /// Length (m), span (m) and mass (kg) of the catenary.
 const LONG: Real = 2.0;
 const SPAN: Real = 1.6;
 const MASS: Real = 4.0;
+
+/// Numbers of rods, H/W, sags (m) and pulls at the ends, of W.
+const CATENARIES: [(usize, Real, Real, Real); 2] = [
+    (10, 0.337_301_091_711, 0.533_728_851_647, 0.603_135_164_345),
+    (20, 0.337_976_109_594, 0.531_583_133_233, 0.603_512_925_012),
+];
 
 /// Angles of n equal rods at rest between two points: tan φ_i = (i + ½ − n/2)(W/n)/H, for a part H/W.
 fn catenary_angles(n: usize, pull: Real) -> Vec<Real> {
@@ -138,10 +156,7 @@ pub static CATENARY: Scene = Scene {
         N = 20: 0.337976109594, 0.531583133233, 0.603512925012.",
     answer: Answer::Numbers(|| {
         let mut numbers = Vec::new();
-        for (n, pull, deep, end) in [
-            (10, 0.337_301_091_711, 0.533_728_851_647, 0.603_135_164_345),
-            (20, 0.337_976_109_594, 0.531_583_133_233, 0.603_512_925_012),
-        ] {
+        for (n, pull, deep, end) in CATENARIES {
             let (mut world, joints) = catenary(n)?;
             world.steps(DT, 600)?;
             let [left, right] = [joints[0], joints[n]].map(|joint| world.joint(joint));
@@ -164,7 +179,15 @@ pub static CATENARY: Scene = Scene {
         }
         Ok(numbers)
     }),
-    checks: &[],
+    checks: &[with_tolerance("sag (m) and H/W after 10 s, the worst", 1e-9, || {
+        CATENARIES.into_iter().try_fold(0.0, |sum, (n, pull, deep, _)| {
+            let (mut world, joints) = catenary(n)?;
+            world.advance(10.0, 1e-12)?;
+            let left = world.joint(joints[0])?.reaction().force;
+            let off = (sag(&world, &joints)? - deep).abs();
+            Ok(worse(sum, worse(off, (left.x / (MASS * G) + pull).abs())))
+        })
+    })],
 };
 
 /// Links of the loaded chain.
@@ -185,6 +208,18 @@ fn loaded(mass: Real) -> Result<(World, Vec<JointHandle>)> {
     Ok((world, joints))
 }
 
+/// How far the end has moved (m), and how far off the pulls are that the joints bear, relative.
+fn stretch_and_pull(world: &World, joints: &[JointHandle], mass: Real) -> Result<[Real; 2]> {
+    let mut off: Real = 0.0;
+    for (i, joint) in joints.iter().enumerate() {
+        let below = G * ((LINKS - 1 - i) as Real + mass);
+        let force = world.joint(*joint)?.reaction().force;
+        off = worse(off, (force - vec2(0.0, below)).norm() / below);
+    }
+    let last = world.bodies().poses[LINKS - 1].position;
+    Ok([(last - vec2(0.0, 0.5 - LINKS as Real)).norm(), off])
+}
+
 pub static LOADED_CHAIN: Scene = Scene {
     id: "Q2",
     name: "loaded_chain",
@@ -195,14 +230,7 @@ pub static LOADED_CHAIN: Scene = Scene {
         for mass in [1.0, 1e3, 1e6] {
             let (mut world, joints) = loaded(mass)?;
             let seen = watch(&mut world, 4.0)?;
-            let mut off: Real = 0.0;
-            for (i, joint) in joints.iter().enumerate() {
-                let below = G * ((LINKS - 1 - i) as Real + mass);
-                let force = world.joint(*joint)?.reaction().force;
-                off = worse(off, (force - vec2(0.0, below)).norm() / below);
-            }
-            let last = world.bodies().poses[LINKS - 1].position;
-            let stretch = (last - vec2(0.0, 0.5 - LINKS as Real)).norm();
+            let [stretch, off] = stretch_and_pull(&world, &joints, mass)?;
             numbers.extend([
                 at_most(format!("largest gap in 4 s, {mass:e}:1 (m)"), seen.gap, 1e-4),
                 at_most(format!("way of the end, {mass:e}:1 (m)"), stretch, 1e-4),
@@ -211,5 +239,16 @@ pub static LOADED_CHAIN: Scene = Scene {
         }
         Ok(numbers)
     }),
-    checks: &[],
+    checks: &[with_tolerance(
+        "way of the end (m) and pull against the weight below after 4 s, 1 … 10⁶:1, the worst",
+        1e-10,
+        || {
+            [1.0, 1e3, 1e6].into_iter().try_fold(0.0, |sum, mass| {
+                let (mut world, joints) = loaded(mass)?;
+                world.advance(4.0, 1e-12)?;
+                let [stretch, off] = stretch_and_pull(&world, &joints, mass)?;
+                Ok(worse(sum, worse(stretch, off)))
+            })
+        },
+    )],
 };

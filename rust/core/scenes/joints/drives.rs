@@ -1,6 +1,6 @@
 //! Motors, brakes and ratchets: forces and torques with bounds.
 
-use super::{JOINED, TOLERANCED, disk, pin, rod};
+use super::{JOINED, disk, pin, rod};
 use crate::body::{BodyDef, BodyHandle};
 use crate::error::Result;
 use crate::joint::{Given, Hold, JointDef, JointKind, Motor, Travel};
@@ -38,7 +38,7 @@ pub static MOTOR: Scene = Scene {
         dt: DT,
         length: 0.5,
         fixed: 1e-10,
-        toleranced: TOLERANCED,
+        toleranced: None,
         judged: JOINED,
     }),
     checks: &[
@@ -90,7 +90,7 @@ pub static SLIDER: Scene = Scene {
         dt: DT,
         length: 1.0,
         fixed: 1e-10,
-        toleranced: TOLERANCED,
+        toleranced: None,
         judged: JOINED,
     }),
     checks: &[
@@ -173,7 +173,7 @@ pub static FRICTION: Scene = Scene {
         length: 10.0,
         // As F3, friction on the ground.
         fixed: 1e-4,
-        toleranced: TOLERANCED,
+        toleranced: None,
         judged: Judged::Contact { order: false },
     }),
     checks: &[at_fixed_step("speed at rest, |v| + |ω|", 1e-12, || {
@@ -209,7 +209,7 @@ pub static BOUNDED_GRAB: Scene = Scene {
         dt: DT,
         length: 1.0,
         fixed: 1e-10,
-        toleranced: TOLERANCED,
+        toleranced: None,
         judged: JOINED,
     }),
     checks: &[

@@ -33,8 +33,8 @@ const APART: Filter = Filter { category: 1, mask: 0, group: 0 };
 /// What is judged where joints move the bodies, and whatever has no closed form.
 const JOINED: Judged = Judged::Contact { order: true };
 
-/// Runs of islands with joints have no estimate of their error to hold them to.
-const TOLERANCED: Option<Toleranced> = None;
+/// What is asked of a run with a tolerance, where no row has a bound.
+const TOLERANCED: Option<Toleranced> = Some(Toleranced { tolerance: 1e-12, error: 1e-9 });
 
 /// A thin rod along its own x axis: I = mℓ²/12.
 fn rod(length: Real, mass: Real, position: Vec2) -> Result<BodyDef> {
