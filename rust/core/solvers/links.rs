@@ -3,7 +3,7 @@
 use super::direct::{Factor, Link, Rows, Triple};
 use super::relaxed::Relaxed;
 use crate::constraints::Velocity;
-use crate::math::Twist;
+use crate::math::{Real, Twist};
 
 /// Solves J M⁻¹ Jᵀ λ + Σ λ = b on the links of an island.
 #[derive(Clone, Debug, Default)]
@@ -11,6 +11,15 @@ pub struct LinkSolver {
     factor: Factor,
     relaxed: Relaxed,
     by_sweeps: bool,
+}
+
+/// How hard to try.
+#[derive(Clone, Copy, Debug)]
+pub struct Effort {
+    /// Sweeps to and fro, where it sweeps.
+    pub sweeps: u32,
+    /// Largest error of a row, in parts of the largest right-hand side, where it does not.
+    pub accuracy: Real,
 }
 
 /// Block products a link from which on sweeps are cheaper: a chain or tree takes 3, a square lattice of 30 × 30
@@ -40,19 +49,19 @@ impl LinkSolver {
         }
     }
 
-    /// Solves for λ near 0 and writes v = M⁻¹ Jᵀ λ; `sweeps` to and fro where it sweeps.
+    /// Solves for λ near 0 and writes v = M⁻¹ Jᵀ λ.
     pub fn solve(
         &mut self,
         b: &[Triple],
-        sweeps: u32,
+        effort: Effort,
         impulses: &mut [Triple],
         twists: &mut [Twist],
     ) {
         if self.by_sweeps {
-            self.relaxed.solve(b, sweeps, impulses, twists);
+            self.relaxed.solve(b, effort.sweeps, impulses, twists);
         } else {
             impulses.fill([0.0; 3]);
-            self.factor.solve(b, impulses, twists);
+            self.factor.solve_to(effort.accuracy, b, impulses, twists);
         }
     }
 }

@@ -206,10 +206,17 @@ fn driven(row: Row, motor: Motor) -> Row {
 
 impl Law {
     /// The rows where the bodies are.
-    #[expect(clippy::too_many_lines, reason = "one arm a kind reads better whole")]
     #[must_use]
     pub fn rows(&self, pair: &Pair) -> Rows {
-        let mut out = Rows::NONE;
+        let mut rows = Rows::NONE;
+        self.write_rows(pair, &mut rows);
+        rows
+    }
+
+    /// The same, into rows that stood there before: they are large.
+    #[expect(clippy::too_many_lines, reason = "one arm a kind reads better whole")]
+    pub fn write_rows(&self, pair: &Pair, out: &mut Rows) {
+        (out.count, out.disc) = (0, false);
         let at = Anchors::of(self, pair);
         let axis = |local: Vec2| pair.rots[0].apply(local);
         let angle_row = |value: Option<Real>| turn(pair, -1.0, value.unwrap_or(0.0));
@@ -220,13 +227,13 @@ impl Law {
             }
             JointKind::Revolute { angle, travel } => {
                 at.point().into_iter().for_each(|row| out.push(row.acting(Action::Hold)));
-                self.travel(travel, angle_row(*angle), &mut out);
+                self.travel(travel, angle_row(*angle), out);
             }
             JointKind::Prismatic { axis: given, angle, travel } => {
                 let d = axis(given.vector());
                 out.push(at.axial(perp(d)).acting(Action::Hold));
                 out.push(angle_row(*angle).acting(Action::Hold));
-                self.travel(travel, at.axial(d), &mut out);
+                self.travel(travel, at.axial(d), out);
             }
             JointKind::Weld { angle, linear, angular } => {
                 let [x, y] = at.point();
@@ -245,11 +252,11 @@ impl Law {
                     out.push(driven(angle_row(None), motor));
                 }
             }
-            JointKind::Grab { hold, max_force } => self.carry(&at, (hold, *max_force), &mut out),
+            JointKind::Grab { hold, max_force } => self.carry(&at, (hold, *max_force), out),
             JointKind::Motor { offset, angle, linear, angular, max_force, max_torque } => {
                 let target = at.arms[0] + pair.rots[0].apply(*offset);
                 let at = Anchors::at([target, at.arms[1]], pair);
-                self.carry(&at, (linear, *max_force), &mut out);
+                self.carry(&at, (linear, *max_force), out);
                 out.push(held(angular, angle_row(*angle), self, 2).within(*max_torque));
             }
             JointKind::Gear { ratio, phase } => {
@@ -287,9 +294,8 @@ impl Law {
                 out.push(angle_row(*angle).acting(spring));
             }
             JointKind::Filter => {}
-            JointKind::Custom => self.own_rows(pair, &mut out),
+            JointKind::Custom => self.own_rows(pair, out),
         }
-        out
     }
 
     /// Limit, motor and spring along the coordinate that is free, whose value is C of `row`.

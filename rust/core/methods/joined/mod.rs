@@ -108,7 +108,7 @@ impl Joints {
         for (k, (tie, rows)) in self.ties.iter().zip(&self.rows).enumerate() {
             if held(rows).next().is_some() {
                 self.held.push(k as u32);
-                self.links.push(tie.bodies);
+                self.links.push(direct::on_ground(&tie.bodies, &self.inverse));
             }
         }
         if !self.held.is_empty() {

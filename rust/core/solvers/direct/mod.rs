@@ -38,6 +38,13 @@ use crate::math::{Real, Twist, vec2};
 /// The two bodies of a link, by slot; none is the ground.
 pub type Link = [Option<u32>; 2];
 
+/// A link as its rows see it: what cannot move is the ground. A body that gives no way would leave the pivot of its link
+/// to ε alone.
+#[must_use]
+pub fn on_ground(link: &Link, bodies: &[Velocity]) -> Link {
+    link.map(|slot| slot.filter(|slot| !bodies[*slot as usize].is_fixed()))
+}
+
 /// ε where the graph has loops: compliance added to every row, against a diagonal of J M⁻¹ Jᵀ + Σ of one. A smaller
 /// one is right for larger ratios of masses; with 1e-13 redundant rows share a load to 1e-6 only.
 const LOOP_REGULARISATION: Real = 1e-12;
@@ -50,6 +57,9 @@ const SMALL_PIVOT: Real = 10.0;
 
 /// Corrections end where what is left over is rounding, in parts of the largest right-hand side.
 const ROUNDING: Real = 1e-15;
+
+/// Below that, corrections that gain little only stir the rounding.
+const NEARLY: Real = 1e-12;
 
 /// Or after so many; two are the rule, ten rare.
 const CORRECTIONS: usize = 30;
@@ -129,8 +139,22 @@ impl Factor {
     /// Returns the largest error of a row in parts of the largest b, both divided by √(J M⁻¹ Jᵀ + Σ): about 1e-16, more
     /// where rows contradict one another.
     pub fn solve(&mut self, b: &[Triple], impulses: &mut [Triple], twists: &mut [Twist]) -> Real {
+        self.solve_to(ROUNDING, b, impulses, twists)
+    }
+
+    /// The same, to an error of this size: what is corrected again later need not be exact now. v = M⁻¹ Jᵀ λ holds to
+    /// rounding even so, hence momentum is kept.
+    pub fn solve_to(
+        &mut self,
+        accuracy: Real,
+        b: &[Triple],
+        impulses: &mut [Triple],
+        twists: &mut [Twist],
+    ) -> Real {
         self.start(impulses);
-        if self.leftover(b) == 0.0 {
+        if impulses.iter().flatten().all(|impulse| *impulse == 0.0) {
+            self.demand(b);
+        } else if self.leftover(b) == 0.0 {
             return 0.0;
         }
         let mut error = Real::INFINITY;
@@ -138,15 +162,24 @@ impl Factor {
             let finite = self.correct();
             let next = self.leftover(b);
             let better = finite && next < error;
-            let slow = next > 0.9 * error;
+            let slow = next > if error > NEARLY { 0.9 } else { 0.3 } * error;
             if !better {
                 self.solution.clone_from(&self.previous);
+                self.leftover(b);
                 break;
             }
             error = next;
-            if slow || error <= ROUNDING {
+            if slow || error <= accuracy {
                 break;
             }
+        }
+        if accuracy > ROUNDING {
+            // What is left over of a body is Jᵀλ − v.
+            self.solution
+                .iter_mut()
+                .zip(&self.residual)
+                .take(twists.len())
+                .for_each(|(v, left)| add(v, *left));
         }
         self.finish(impulses, twists);
         error
@@ -218,6 +251,14 @@ impl Factor {
         let scaled =
             |(link, impulse): (&Scaled, &Triple)| [0, 1, 2].map(|r| impulse[r] * link.length[r]);
         self.solution.extend(self.links.iter().zip(impulses).map(scaled));
+    }
+
+    /// Writes what no impulses at all leave over.
+    fn demand(&mut self, b: &[Triple]) {
+        let Self { structure, links, residual, .. } = self;
+        residual.clear();
+        residual.resize(structure.bodies, [0.0; 3]);
+        residual.extend(links.iter().zip(b).map(|(link, b)| link.unit(*b)));
     }
 
     /// Writes what the solution leaves over; returns how much of it there is against what the terms are.

@@ -12,6 +12,7 @@ use crate::constraints::Velocity;
 use crate::constraints::joint::{self, Action};
 use crate::math::{Real, Twist};
 use crate::solvers::direct;
+use crate::solvers::links::Effort;
 
 /// What the solve does with a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -97,6 +98,9 @@ pub const TURN: usize = 4;
 
 /// Sweeps to and fro instead of rounds, at most.
 const SWEEPS: usize = 4;
+
+/// Rows are solved anew in each substep, so that what is lacking of velocities does not add up.
+const EFFORT: Effort = Effort { sweeps: 1, accuracy: 1e-10 };
 
 /// Rounding of a velocity, in parts of what it is a sum of.
 const ROUNDING: Real = 1e-12;
@@ -202,7 +206,7 @@ fn correct(ties: &mut Ties, velocities: &mut [Velocity]) -> Real {
     if largest == 0.0 {
         return 0.0;
     }
-    solver.solve(wanted, 1, solved, change);
+    solver.solve(wanted, EFFORT, solved, change);
     for (velocity, change) in velocities.iter_mut().zip(&*change) {
         velocity.twist += *change;
     }

@@ -6,16 +6,18 @@
 
 use super::active::fill;
 use super::{Bodies, Ties};
+use crate::constraints::Velocity;
 use crate::constraints::joint::{self, Action};
-use crate::math::{Real, Twist};
+use crate::math::{Real, Twist, Vec2, cross, perp};
 use crate::methods::contact_step::{Group, Mass};
 use crate::solvers::direct::Triple;
+use crate::solvers::links::Effort;
 
 /// Newton steps a substep: each leaves of a gap about its part of the turn in half a substep.
 const STEPS: usize = 4;
 
-/// Sweeps to and fro of a Newton step where the solver sweeps.
-const SWEEPS: u32 = 2;
+/// Of a Newton step, which the next one corrects.
+const EFFORT: Effort = Effort { sweeps: 2, accuracy: 1e-4 };
 
 /// A gap of this part of the lengths around the joint counts as closed: a hundred thousandth of what a substep opens.
 const CLOSED: Real = 1e-11;
@@ -34,22 +36,40 @@ const MOST_TURN: Real = 0.3;
 pub fn close(group: &mut Group, h: Real) -> Real {
     look(group);
     let mut total: Vec<Triple> = Vec::new();
-    let (mut work, mut shifted) = (0.0, 0.0);
+    let mut sum = Shift::default();
     for _ in 0..STEPS {
         if !open(group) {
             break;
         }
         total.resize(group.ties.links.len(), [0.0; 3]);
         prepare(group);
-        let (against, size) = shift(group, &mut total);
-        work += against;
-        shifted += size;
+        sum += shift(group, &mut total);
         look(group);
     }
-    if shifted > 0.0 && shifted <= moved(group, h) {
-        work += turn_velocities(group, &total, 0.5 * h);
+    let mut kept = None;
+    if sum.size > 0.0 && sum.size <= moved(group, h) {
+        kept = turn_velocities(group, &total, 0.5 * h);
     }
-    work
+    sum.work + kept.unwrap_or_else(|| turn_back(group, sum.carried))
+}
+
+/// What moving bodies takes.
+#[derive(Clone, Copy, Debug, Default)]
+struct Shift {
+    /// Work against the forces (J).
+    work: Real,
+    /// How far it moves the bodies, as [`moved`] has it.
+    size: Real,
+    /// Angular momentum that their momenta got by being carried to other lines (kg·m²/s).
+    carried: Real,
+}
+
+impl std::ops::AddAssign for Shift {
+    fn add_assign(&mut self, other: Self) {
+        self.work += other.work;
+        self.size += other.size;
+        self.carried += other.carried;
+    }
 }
 
 /// How far the bodies moved in the substep, or would have without joints, in the measure of their masses: h(Σ mv² + Iω²)^½.
@@ -69,7 +89,7 @@ fn look(group: &mut Group) {
     let Group { ties, velocities, places, angles, .. } = group;
     let bodies = Bodies { velocities, places, angles };
     for tie in &mut ties.list {
-        tie.end = tie.law.rows(&bodies.pair(tie));
+        tie.law.write_rows(&bodies.pair(tie), &mut tie.end);
     }
 }
 
@@ -126,9 +146,9 @@ fn prepare(group: &mut Group) {
     prepared.get_or_insert_default().clone_from(closing);
 }
 
-/// One Newton step; returns the work it takes (J), and how far it moves the bodies, as [`moved`] has it.
-fn shift(group: &mut Group, total: &mut [Triple]) -> (Real, Real) {
-    let Group { ties, places, masses, .. } = group;
+/// One Newton step.
+fn shift(group: &mut Group, total: &mut [Triple]) -> Shift {
+    let Group { ties, places, masses, velocities, .. } = group;
     let Ties { list, rows, solver, wanted, solved, change, links, .. } = ties;
     wanted.clear();
     wanted.resize(links.len(), [0.0; 3]);
@@ -143,7 +163,7 @@ fn shift(group: &mut Group, total: &mut [Triple]) -> (Real, Real) {
                 -gap(&tie.middle.rows[k], &tie.end.rows[k], impulse);
         }
     }
-    solver.solve(wanted, SWEEPS, solved, change);
+    solver.solve(wanted, EFFORT, solved, change);
     let turn = change.iter().map(|change| change.angular.abs()).fold(0.0, Real::max);
     let way = change.iter().map(|change| change.linear.norm()).fold(0.0, Real::max);
     let far = FARTHEST * wanted.iter().flatten().map(|gap| gap.abs()).sum::<Real>();
@@ -152,22 +172,64 @@ fn shift(group: &mut Group, total: &mut [Triple]) -> (Real, Real) {
     for (sum, own) in total.iter_mut().zip(&*solved) {
         sum.iter_mut().zip(own).for_each(|(sum, own)| *sum += part * own);
     }
-    let (mut work, mut square) = (0.0, 0.0);
-    for ((place, change), mass) in places.iter_mut().zip(&*change).zip(&*masses) {
+    let (mut sum, mut square) = (Shift::default(), 0.0);
+    let bodies = places.iter_mut().zip(&*velocities).zip(&*masses);
+    for (((place, velocity), mass), change) in bodies.zip(&*change) {
         if *change == Twist::ZERO {
             continue;
         }
         let way = Twist::new(change.linear * part, change.angular * part);
         place.way += way.linear;
         place.rotate(way.angular);
-        work -= mass.work(&way, &place.acceleration);
+        sum.work -= mass.work(&way, &place.acceleration);
+        sum.carried += mass.mass * cross(way.linear, velocity.twist.linear);
         square += mass.work(&way, &way);
     }
-    (work, square.sqrt())
+    Shift { size: square.sqrt(), ..sum }
 }
 
-/// The velocities' share of the shift; returns the energy it gives (J).
-fn turn_velocities(group: &mut Group, total: &[Triple], half: Real) -> Real {
+/// Takes angular momentum from the bodies that joints tie, which turn as one rigid body about their common centre of mass;
+/// returns the energy that gives (J). Nothing where one of them is held.
+fn turn_back(group: &mut Group, carried: Real) -> Real {
+    let Group { ties, velocities, places, masses, .. } = group;
+    let Ties { list, positions, .. } = ties;
+    if carried == 0.0 {
+        return 0.0;
+    }
+    positions.clear();
+    positions.resize(velocities.len(), None);
+    for tie in &*list {
+        for (slot, start) in tie.slots.iter().zip([tie.origin, tie.origin + tie.apart]) {
+            let Some(slot) = slot.map(|slot| slot as usize) else { return 0.0 };
+            let Velocity { inverse_mass, inverse_inertia, .. } = &velocities[slot];
+            if inverse_mass.x == 0.0 || inverse_mass.y == 0.0 || *inverse_inertia == 0.0 {
+                return 0.0;
+            }
+            positions[slot] = Some(start + places[slot].way);
+        }
+    }
+    let tied = || {
+        let slots = positions.iter().zip(&*masses).enumerate();
+        slots.filter_map(|(slot, (position, mass))| Some((slot, (*position)?, mass)))
+    };
+    let mass: Real = tied().map(|(.., mass)| mass.mass).sum();
+    let center = tied().map(|(_, at, own)| at * own.mass).sum::<Vec2>() / mass;
+    let of =
+        |(_, at, own): (usize, Vec2, &Mass)| own.inertia + own.mass * (at - center).norm_squared();
+    let turn = -carried / tied().map(of).sum::<Real>();
+    let mut gained = 0.0;
+    for (slot, at, own) in tied() {
+        let change = Twist::new(perp(at - center) * turn, turn);
+        let twist = &mut velocities[slot].twist;
+        let mean = Twist::new(twist.linear + change.linear * 0.5, twist.angular + 0.5 * turn);
+        gained += own.work(&change, &mean);
+        *twist += change;
+    }
+    gained
+}
+
+/// The velocities' share of the shift; returns the energy it gives (J), or nothing where it is left out.
+fn turn_velocities(group: &mut Group, total: &[Triple], half: Real) -> Option<Real> {
     let Group { ties, velocities, masses, .. } = group;
     let before: Vec<Twist> = velocities.iter().map(|velocity| velocity.twist).collect();
     for tie in &ties.list {
@@ -191,8 +253,8 @@ fn turn_velocities(group: &mut Group, total: &[Triple], half: Real) -> Real {
     let energy = |(twist, mass): (&Twist, &Mass)| 0.5 * mass.work(twist, twist);
     let energies: Real = before.iter().zip(&*masses).map(energy).sum();
     if gained.abs() <= MOST_GAIN * energies {
-        return gained;
+        return Some(gained);
     }
     velocities.iter_mut().zip(before).for_each(|(velocity, before)| velocity.twist = before);
-    0.0
+    None
 }

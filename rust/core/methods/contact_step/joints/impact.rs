@@ -6,6 +6,7 @@ use crate::constraints::Velocity;
 use crate::constraints::contact::Block;
 use crate::constraints::joint::Action;
 use crate::math::{Real, Twist};
+use crate::solvers::links::Effort;
 
 impl Ties {
     /// Whether a joint holds a body of a block.
@@ -35,7 +36,7 @@ impl Ties {
         solved.resize(links.len(), [0.0; 3]);
         change.clear();
         change.resize(velocities.len(), Twist::ZERO);
-        solver.solve(wanted, SWEEPS, solved, change);
+        solver.solve(wanted, EFFORT, solved, change);
         change
     }
 
@@ -66,7 +67,7 @@ impl Ties {
             solved.resize(links.len(), [0.0; 3]);
             change.clear();
             change.resize(velocities.len(), Twist::ZERO);
-            solver.solve(wanted, SWEEPS, solved, change);
+            solver.solve(wanted, EFFORT, solved, change);
             carried.iter_mut().zip(&*change).for_each(|(sum, change)| *sum += *change);
         }
         let entry = |i: usize, k: usize| -> Real {
@@ -104,8 +105,8 @@ impl Ties {
     }
 }
 
-/// Sweeps to and fro where the solver sweeps.
-const SWEEPS: u32 = 4;
+/// An impact happens once: what it lacks stays.
+const EFFORT: Effort = Effort { sweeps: 4, accuracy: 1e-15 };
 
 fn twists_of(tie: &Tie, twists: &[Twist]) -> [Twist; 2] {
     tie.slots.map(|slot| slot.map_or(Twist::ZERO, |slot| twists[slot as usize]))

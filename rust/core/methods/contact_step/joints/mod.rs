@@ -23,7 +23,7 @@ use crate::constraints::{Place, Velocity};
 use crate::forces::Ledger;
 use crate::joint::ROWS;
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, cross, vec2};
-use crate::solvers::direct::{self, Link, Triple};
+use crate::solvers::direct::{self, Link, Triple, on_ground};
 use crate::solvers::links::LinkSolver;
 use active::Row;
 
@@ -91,6 +91,8 @@ pub struct Ties {
     closing: Vec<[bool; 3]>,
     /// Velocities at the start of the substep.
     before: Vec<Twist>,
+    /// Where the bodies are (m).
+    positions: Vec<Option<Vec2>>,
     /// Sums over the springs of each slot.
     rates: Vec<Rates>,
     wanted: Vec<Triple>,
@@ -154,12 +156,11 @@ pub fn start(group: &mut Group) {
     links.clear();
     rows.clear();
     for tie in &mut *list {
-        tie.end = tie.law.rows(&bodies.pair(tie));
+        tie.law.write_rows(&bodies.pair(tie), &mut tie.end);
         (tie.first_row, tie.first_node) = (rows.len(), links.len());
         rows.resize(tie.first_row + tie.end.count, Row::default());
-        for _ in 0..tie.end.count.div_ceil(3) {
-            links.push(tie.slots);
-        }
+        let link = on_ground(&tie.slots, velocities);
+        links.extend(std::iter::repeat_n(link, tie.end.count.div_ceil(3)));
     }
     solver.analyse(velocities.len(), links);
 }
@@ -178,7 +179,7 @@ pub fn place(group: &mut Group) {
     let Group { ties, velocities, places, angles, .. } = group;
     let bodies = Bodies { velocities, places, angles };
     for tie in &mut ties.list {
-        tie.middle = tie.law.rows(&bodies.pair(tie));
+        tie.law.write_rows(&bodies.pair(tie), &mut tie.middle);
     }
     ties.prepared = None;
 }
