@@ -626,7 +626,10 @@ class Facts:
         """Error after a fixed time falls as h^order."""
     @property
     def symplectic(self) -> bool:
-        """The map of a step is symplectic (forces that come from a potential)."""
+        """The map of a step is symplectic (forces that come from a potential).
+
+        Of semi-implicit Euler where nothing is joined.
+        """
     @property
     def reversible(self) -> bool:
         """A run turned round comes back to its start."""
@@ -1541,7 +1544,9 @@ class Trajectory:
 class StepReport:
     """What the last step or run took."""
 
-    __match_args__: ClassVar[tuple[str, str, str, str, str, str, str, str, str, str, str]]
+    __match_args__: ClassVar[
+        tuple[str, str, str, str, str, str, str, str, str, str, str, str, str]
+    ]
 
     def __new__(
         cls,
@@ -1550,6 +1555,8 @@ class StepReport:
         rejected: int,
         evaluations: int,
         sweeps: int,
+        solves: int,
+        parts: int,
         impacts: int,
         residual: float,
         smallest_step: float,
@@ -1572,6 +1579,15 @@ class StepReport:
     @property
     def sweeps(self) -> int:
         """Sweeps over the rows of contacts, summed over islands and substeps."""
+    @property
+    def solves(self) -> int:
+        """Systems of the rows of joints solved by the methods, summed over islands."""
+    @property
+    def parts(self) -> int:
+        """Most parts that a substep was divided into because of what joints bear.
+
+        256 may not have been enough.
+        """
     @property
     def impacts(self) -> int:
         """Impacts resolved."""

@@ -28,6 +28,10 @@ record! {
         evaluations: u64,
         /// Sweeps over the rows of contacts, summed over islands and substeps.
         sweeps: u64,
+        /// Systems of the rows of joints solved by the methods, summed over islands.
+        solves: u64,
+        /// Most parts that a substep was divided into because of what joints bear; 256 may not have been enough.
+        parts: u32,
         /// Impacts resolved.
         impacts: u64,
         /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
@@ -52,6 +56,8 @@ impl From<&world::StepReport> for StepReport {
             rejected: report.rejected,
             evaluations: report.evaluations,
             sweeps: report.sweeps,
+            solves: report.solves,
+            parts: report.parts,
             impacts: report.impacts,
             residual: report.residual,
             smallest_step: report.smallest_step,

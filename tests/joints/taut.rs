@@ -31,3 +31,31 @@ fn an_exactly_taut_rope_stays() {
         assert!((energy.balance() - before.balance()).abs() < 1e-12, "{links} rods");
     }
 }
+
+/// A light rod between a pin and a heavy load turns as a string under tension does; its substep is divided so that it is
+/// followed, and the report says into how many parts. That of a load of its own mass is not.
+#[test]
+fn a_heavy_load_divides_the_substep() {
+    let parts = |load: Real| {
+        let mut world = World::new(vec2(0.0, -9.81)).unwrap();
+        let rod = world
+            .add_body(BodyDef {
+                position: vec2(0.5, 0.0),
+                inertia: Some(0.1),
+                ..BodyDef::point(1.0)
+            })
+            .unwrap();
+        let def = BodyDef { position: vec2(1.0, 0.0), inertia: Some(load), ..BodyDef::point(load) };
+        let end = world.add_body(def).unwrap();
+        world.add_joint(JointDef::revolute(None, rod).at(vec2(0.0, 0.0))).unwrap();
+        world.add_joint(JointDef::revolute(rod, end).at(vec2(1.0, 0.0))).unwrap();
+        let before = world.energy().unwrap().balance();
+        world.steps(1.0 / 60.0, 120).unwrap();
+        let change = (world.energy().unwrap().balance() - before).abs();
+        assert!(change < 1e-3 * load * 9.81, "{load}: {change:e}");
+        world.report().parts
+    };
+    assert_eq!(parts(1.0), 1);
+    let heavy = parts(1e5);
+    assert!(heavy > 1 && heavy <= 256, "{heavy}");
+}

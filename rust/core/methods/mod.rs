@@ -31,7 +31,7 @@ pub struct Facts {
     pub name: &'static str,
     /// Error after a fixed time falls as h^order.
     pub order: u32,
-    /// The map of a step is symplectic (forces that come from a potential).
+    /// The map of a step is symplectic (forces that come from a potential; of semi-implicit Euler where nothing is joined).
     pub symplectic: bool,
     /// A run turned round comes back to its start.
     pub reversible: bool,

@@ -32,6 +32,8 @@ pub struct StepReport {
     pub sweeps: u64,
     /// Systems of the rows of joints solved by the methods, summed over islands.
     pub solves: u64,
+    /// Most parts that a substep was divided into because of what joints bear; 256 may not have been enough.
+    pub parts: u32,
     /// Impacts resolved.
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows of contacts still lack.
@@ -53,6 +55,7 @@ impl Default for StepReport {
             evaluations: 0,
             sweeps: 0,
             solves: 0,
+            parts: 1,
             impacts: 0,
             residual: 0.0,
             smallest_step: Real::INFINITY,

@@ -42,6 +42,7 @@ impl World {
             if needed <= BEYOND * Real::from(parts) || parts == most {
                 self.keep_solver();
                 self.scatter(outcome, fine);
+                self.report.parts = self.report.parts.max(parts);
                 return Ok(());
             }
             parts = needed.min(Real::from(parts * MORE)).min(most.into()).ceil() as u32;
