@@ -36,7 +36,7 @@ record! {
         name: String,
         /// Error after a fixed time falls as h^order.
         order: u32,
-        /// The map of a step is symplectic (forces that come from a potential).
+        /// The map of a step is symplectic (forces that come from a potential; of semi-implicit Euler where nothing is joined).
         symplectic: bool,
         /// A run turned round comes back to its start.
         reversible: bool,

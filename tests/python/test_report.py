@@ -46,6 +46,26 @@ def test_errors_are_the_same_bits_every_time(results: Results) -> None:
     assert {row.scene for row in results.rows} == {"projectile", "kepler"}
 
 
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (None, "–"),
+        (0.0, "0"),
+        (float("inf"), "∞"),
+        (9.96, "10"),
+        (0.25, "0.25"),
+        (2.31e-5, "2.3·10⁻⁵"),
+        (9.99e-7, "10⁻⁶"),
+        (5e-324, "4.9·10⁻³²⁴"),
+    ],
+)
+def test_numbers_of_any_size(value: float | None, text: str) -> None:
+    pytest.importorskip("jinja2")
+    from culbuto.report.page import number  # noqa: PLC0415
+
+    assert number(value) == text
+
+
 def test_rows_are_read_back(results: Results, tmp_path: Path) -> None:
     table, data = write_rows(results, tmp_path)
     with table.open(encoding="utf-8") as file:

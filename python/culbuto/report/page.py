@@ -30,10 +30,8 @@ def number(value: float | None) -> str:
         return "∞"
     if value == 0:
         return "0"
-    power = math.floor(math.log10(abs(value)))
-    digits = f"{value / 10.0**power:.1f}"
-    if digits == "10.0":
-        digits, power = "1.0", power + 1
+    digits, _, exponent = f"{value:.1e}".partition("e")
+    power = int(exponent)
     if -2 <= power <= 2:
         return f"{value:.2g}"
     raised = str(power).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
