@@ -1544,9 +1544,7 @@ class Trajectory:
 class StepReport:
     """What the last step or run took."""
 
-    __match_args__: ClassVar[
-        tuple[str, str, str, str, str, str, str, str, str, str, str, str, str]
-    ]
+    __match_args__: ClassVar[tuple[str, str, str, str, str, str, str, str, str, str, str, str, str]]
 
     def __new__(
         cls,
