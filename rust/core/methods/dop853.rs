@@ -9,6 +9,7 @@ use crate::math::{Pose, Real, Twist, powf};
 use crate::methods::dop853_dense::{Dense, first_kink};
 use crate::methods::dop853_table::{A, C, E3, E5};
 use crate::methods::first_order::{self, Columns};
+use crate::methods::guard::{Guard, Stop};
 use crate::methods::{Facts, Method, Motion, Scratch, Span, System};
 
 /// Slopes of a step, its end included.
@@ -102,10 +103,23 @@ struct Turn {
     whole_step: Real,
 }
 
+/// The step that is next.
+#[derive(Default)]
+struct Ahead {
+    h: Real,
+    /// The kink at which it ends.
+    turn: Option<Turn>,
+    /// It ends at an event; how often its length was corrected.
+    stopping: Option<u32>,
+}
+
 /// A kink this part of a step away from its start is there already.
 const IN_PLACE: Real = 1e-9;
 /// Turns in place before a step is made all the same: a body at rest in the air turns with every rounding.
 const TURNS_IN_PLACE: u32 = 4;
+
+/// How often a step that is to end at an event is made anew with a better length.
+const CORRECTIONS: u32 = 3;
 
 /// Steps that are tried in one run before the tolerance is said to be out of reach: no call goes on for days unasked.
 const MOST_STEPS: u64 = 1_000_000;
@@ -121,6 +135,7 @@ pub struct Adaptive<'a> {
     turns_in_place: u32,
     /// Error of the last step over the tolerance.
     error_before: Option<Real>,
+    guard: Option<&'a mut dyn Guard>,
     progress: Progress,
 }
 
@@ -158,8 +173,15 @@ impl<'a> Adaptive<'a> {
             may_grow: true,
             turns_in_place: 0,
             error_before: None,
+            guard: None,
             progress: Progress { smallest: Real::INFINITY, ..Progress::default() },
         }
+    }
+
+    /// Ends the run at the first event that a guard sees.
+    #[must_use]
+    pub fn guarded(self, guard: &'a mut dyn Guard) -> Self {
+        Self { guard: Some(guard), ..self }
     }
 
     /// Runs to the end of the span; `sink` is called with the number of each sample and the state there.
@@ -168,30 +190,42 @@ impl<'a> Adaptive<'a> {
     /// Those of the user's fields; [`Error::Tolerance`] where no step is small enough;
     /// [`Error::Interrupted`] with what `watch` said.
     pub fn run(
+        self,
+        system: &mut System<'_>,
+        motion: &mut Motion<'_>,
+        scratch: &mut Scratch,
+        handlers: (&mut Sink<'_>, &mut Watch<'_>),
+    ) -> Result<Progress> {
+        self.run_on(system, motion, scratch, handlers).map(|(progress, _)| progress)
+    }
+
+    /// The same, and where it ended.
+    ///
+    /// # Errors
+    /// Those of [`Adaptive::run`], and of the guard.
+    pub fn run_on(
         mut self,
         system: &mut System<'_>,
         motion: &mut Motion<'_>,
         scratch: &mut Scratch,
         (sink, watch): (&mut Sink<'_>, &mut Watch<'_>),
-    ) -> Result<Progress> {
+    ) -> Result<(Progress, Stop)> {
         let y = &mut scratch.flat;
         y.load(motion, DENSE_STAGES);
         y.settle_state(system, motion);
         let start =
             Turn { facets: system.forces.facets_of(motion.poses, motion.twists), whole_step: 0.0 };
         self.turn(y, system, self.span.start, start)?;
-        let mut passed = 0.0;
-        let mut h = self.first_step(y);
-        let mut turn: Option<Turn> = None;
-        let mut tries = 0;
-        while passed < self.span.duration {
+        let (mut passed, mut tries, mut early) = (0.0, 0, false);
+        let mut ahead = Ahead { h: self.first_step(y), ..Ahead::default() };
+        while passed < self.span.duration && !early {
             tries += 1;
             self.refuse_many(tries, passed)?;
             watch().map_err(|source| Error::Interrupted { source })?;
             let rest = self.span.duration - passed;
             // A last step that would leave a sliver takes it along.
-            let last = h >= rest * (1.0 - 1e-10);
-            h = if last { rest } else { h.min(rest) };
+            let last = ahead.h >= rest * (1.0 - 1e-10);
+            let h = if last { rest } else { ahead.h.min(rest) };
             let time = self.span.start + passed;
             self.refuse_tiny(h, passed)?;
             system.forces.shown.kinked = false;
@@ -199,8 +233,9 @@ impl<'a> Adaptive<'a> {
             let StepError { likely, most: error } = self.error(y, h);
             if !error.is_finite() || error > 1.0 {
                 self.progress.rejected += 1;
-                (turn, self.may_grow) = (None, false);
-                h *= if error.is_finite() { shrink(error) } else { 1.0 / 3.0 };
+                self.may_grow = false;
+                let change = if error.is_finite() { shrink(error) } else { 1.0 / 3.0 };
+                ahead = Ahead { h: h * change, ..Ahead::default() };
                 continue;
             }
             let end = if last { self.span.end } else { time + h };
@@ -208,33 +243,64 @@ impl<'a> Adaptive<'a> {
             // Before its slope is taken, so that the next step and dense output go on from there.
             y.settle_stage(system, motion);
             y.slope_of_stage(12, system, end)?;
-            if system.forces.shown.kinked
-                && turn.is_none()
-                && self.turns_in_place < TURNS_IN_PLACE
-                && let Some((part, facets)) = first_kink(y, system, (time, h))?
-            {
+            ahead.h = h;
+            if self.shorten(y, system, time, &mut ahead)? {
                 motion.ledger.correction_work = booked;
-                let kink = Turn { facets, whole_step: h };
-                if part > IN_PLACE {
-                    turn = Some(kink);
-                    h *= part;
-                } else {
-                    self.turns_in_place += 1;
-                    self.turn(y, system, time, kink)?;
-                }
+                early = self.refuse_tiny(ahead.h, passed).is_err() && ahead.stopping.is_some();
                 continue;
             }
             self.sample(y, system, (passed, h, last), sink)?;
             self.accept(y, h, likely);
             passed = if last { self.span.duration } else { passed + h };
-            h = self.next_step(h, error);
-            if let Some(kink) = turn.take() {
-                h = kink.whole_step;
+            early = ahead.stopping.is_some();
+            ahead.h = self.next_step(h, error);
+            if let Some(kink) = ahead.turn.take() {
+                ahead.h = kink.whole_step;
                 self.turn(y, system, end, kink)?;
             }
         }
         y.store(motion);
-        Ok(self.progress)
+        Ok((self.progress, Stop { passed, samples: self.next_sample, early }))
+    }
+
+    /// Makes a step end at the first kink in it, or at the first event; whether it has to be made anew.
+    fn shorten(
+        &mut self,
+        y: &mut Columns,
+        system: &mut System<'_>,
+        time: Real,
+        ahead: &mut Ahead,
+    ) -> Result<bool> {
+        let h = ahead.h;
+        if system.forces.shown.kinked
+            && ahead.stopping.is_none()
+            && ahead.turn.is_none()
+            && self.turns_in_place < TURNS_IN_PLACE
+            && let Some((part, facets)) = first_kink(y, system, (time, h))?
+        {
+            let kink = Turn { facets, whole_step: h };
+            if part > IN_PLACE {
+                ahead.turn = Some(kink);
+                ahead.h *= part;
+            } else {
+                self.turns_in_place += 1;
+                self.turn(y, system, time, kink)?;
+            }
+            return Ok(true);
+        }
+        let Some(guard) = &mut self.guard else { return Ok(false) };
+        let (corrected, until) = if let Some(corrected) = ahead.stopping {
+            let change = guard.correct(y, system, (time, h))?;
+            if change.abs() <= Real::EPSILON * h || corrected >= CORRECTIONS {
+                return Ok(false);
+            }
+            (corrected + 1, h + change)
+        } else {
+            let Some(part) = guard.first(y, system, (time, h))? else { return Ok(false) };
+            (0, part * h)
+        };
+        *ahead = Ahead { h: until, turn: None, stopping: Some(corrected) };
+        Ok(true)
     }
 
     /// The step after one of length h.

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::forces::{Facets, Forces};
-use crate::math::Real;
+use crate::math::{Pose, Real, Twist, vec2};
 use crate::methods::System;
 use crate::methods::dop853::{DENSE_STAGES, STAGES};
 use crate::methods::dop853_table::{A, C, D};
@@ -42,11 +42,22 @@ impl Dense {
 
     /// The state at a fraction of the step: y₀ + x(F₁ + (1 − x)(F₂ + x(F₃ + (1 − x)(…)))).
     pub fn at(&self, x: Real) -> Vec<Real> {
-        let value = |i: usize| {
-            let nested = self.coefficients.iter().enumerate().rev();
-            nested.fold(0.0, |sum, (j, f)| (sum + f[i]) * if j % 2 == 0 { x } else { 1.0 - x })
-        };
-        (0..self.start.len()).map(|i| self.start[i] + value(i)).collect()
+        (0..self.start.len()).map(|i| self.component(i, x)).collect()
+    }
+
+    /// One body at a fraction of the step.
+    pub fn body(&self, i: usize, x: Real) -> (Pose, Twist) {
+        let (q, v) = (3 * i, 3 * (first_order::bodies(&self.start) + i));
+        let [px, py, angle, vx, vy, spin] =
+            [q, q + 1, q + 2, v, v + 1, v + 2].map(|k| self.component(k, x));
+        (Pose::new(vec2(px, py), angle), Twist::new(vec2(vx, vy), spin))
+    }
+
+    fn component(&self, i: usize, x: Real) -> Real {
+        let nested = self.coefficients.iter().enumerate().rev();
+        let way =
+            nested.fold(0.0, |sum, (j, f)| (sum + f[i]) * if j % 2 == 0 { x } else { 1.0 - x });
+        self.start[i] + way
     }
 }
 

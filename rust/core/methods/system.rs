@@ -4,6 +4,7 @@ use crate::error::Result;
 use crate::forces::{Forces, Ledger};
 use crate::math::{Pose, Real, Twist};
 use crate::methods::Motion;
+use crate::methods::events::Modes;
 use crate::methods::joined::Joints;
 
 /// Forces, and joints where the bodies have any.
@@ -12,6 +13,8 @@ pub struct System<'a> {
     pub forces: Forces<'a>,
     /// The joints, none of which has a bound on what it may use.
     pub joints: Option<&'a mut Joints>,
+    /// What touches and what joints hold, together; then `joints` is none.
+    pub modes: Option<Modes>,
 }
 
 impl System<'_> {
@@ -27,13 +30,20 @@ impl System<'_> {
         if let Some(joints) = &mut self.joints {
             power += joints.accelerate(poses, twists, out);
         }
+        if let Some(modes) = &mut self.modes {
+            power += modes.accelerate(poses, twists, out);
+        }
         Ok(power)
     }
 
     /// Puts the bodies where the joints hold, and stops what moves against them; returns what that took (J).
     pub fn settle(&mut self, poses: &mut [Pose], twists: &mut [Twist]) -> Ledger {
-        let Some(joints) = &mut self.joints else { return Ledger::default() };
-        joints.settle((self.forces.masses, self.forces.gravity), poses, twists)
+        let weights = (self.forces.masses, self.forces.gravity);
+        match (&mut self.joints, &mut self.modes) {
+            (Some(joints), _) => joints.settle(weights, poses, twists),
+            (_, Some(modes)) => modes.settle(weights, poses, twists),
+            _ => Ledger::default(),
+        }
     }
 
     /// The same for a motion, and books it.

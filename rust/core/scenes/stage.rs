@@ -78,13 +78,24 @@ pub(super) const fn with_tolerance(
     Check { what, column: Column::Tolerance, asked, measure }
 }
 
+/// The tolerance of the catalogue's column.
+pub(super) const TOLERANCE: Real = 1e-9;
+
 /// Value of a growing condition: the smallest number between two for which it holds.
 pub(super) fn threshold(
+    [low, high]: [Real; 2],
+    holds: impl Fn(Real) -> Result<bool>,
+) -> Result<Real> {
+    threshold_to(20, [low, high], holds)
+}
+
+/// The same, by so many halvings.
+pub(super) fn threshold_to(
+    halvings: usize,
     [mut low, mut high]: [Real; 2],
     holds: impl Fn(Real) -> Result<bool>,
 ) -> Result<Real> {
-    const HALVINGS: usize = 20;
-    for _ in 0..HALVINGS {
+    for _ in 0..halvings {
         let middle = 0.5 * (low + high);
         if holds(middle)? {
             high = middle;

@@ -11,7 +11,8 @@ impl World {
     /// Moves the world on by a duration (s), to a tolerance (relative, 1e-15 to 0.1).
     ///
     /// Bodies under constant forces take the exact solution; every other island takes DOP853 at the
-    /// steps its own error asks for. Where bodies can meet, all advance by steps that are taken once more at half the
+    /// steps its own error asks for. What touches or may goes from event to event (see [`crate::methods::events`]) in small groups; where
+    /// some group is not one for that, all advance by steps that are taken once more at half the
     /// substep and shortened until both agree to the tolerance, impacts located in either. The local error of each step is kept below the tolerance times
     /// the body's size or the way it went (positions), a radian (angles), its largest speeds so far
     /// (velocities); the report's estimate is the sum of those errors.
@@ -111,6 +112,8 @@ impl World {
         let asked = (tolerance, &*times);
         let sampled = (samples.start, &mut *trajectory);
         let mut worst = self.advance_joined_to_tolerance(span, asked, sampled, watch)?;
+        let sampled = (samples.start, &mut *trajectory);
+        worst = worst.max(self.advance_by_events(span, asked, sampled, watch)?);
         self.advance_closed(span.duration);
         let plan = self.plan.take().unwrap_or_default();
         for run in plan.runs() {

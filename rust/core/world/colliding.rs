@@ -1,8 +1,9 @@
 //! Time to a tolerance where bodies can meet: free motion while nothing is near, else steps that are each taken twice.
 
 use crate::error::{Error, Result};
-use crate::math::{Pose, Real};
+use crate::math::{Pose, Real, Vec2};
 use crate::methods::Watch;
+use crate::world::contacts::ByEvents;
 use crate::world::{State, Trajectory, World};
 
 /// Steps that were tried in a row before the tolerance is said to be out of reach.
@@ -11,8 +12,34 @@ const MOST_TRIES: u32 = 60;
 /// Steps of a call before the same is said.
 const MOST_STEPS: usize = 4000;
 
+/// Bodies of a group from which on a shorter stretch is tried, in which it may fall into smaller ones.
+const FEW: usize = 6;
+
+/// How often a stretch is taken because a body was thrown farther than was looked.
+const MOST_THROWN: u32 = 12;
+
+/// How far a run has come.
+struct Run<'t> {
+    /// World time at its start (s).
+    start: Real,
+    duration: Real,
+    tolerance: Real,
+    trajectory: &'t mut Trajectory,
+    /// Time since the start (s).
+    passed: Real,
+    /// The next sample.
+    next: usize,
+    /// Length of the next stretch in which events are located (s).
+    stretch: Real,
+    /// Length of the next step that is taken twice (s).
+    step: Real,
+    /// Steps to be taken before events are tried again, and how many the next time.
+    wait: [u32; 2],
+}
+
 impl World {
-    /// [`World::advance_watched`] where bodies can meet. Each step is taken with n and with 2n substeps; their
+    /// [`World::advance_watched`] where bodies can meet. Small groups go from event to event (`methods/events`). Where that cannot be done
+    /// each step is taken with n and with 2n substeps; their
     /// difference over 2² − 1 estimates the error of the finer one, which is kept (Richardson; the contact step is of second order
     /// on smooth motion). A step whose estimate is above the tolerance is taken again, shorter.
     pub(super) fn advance_colliding(
@@ -26,18 +53,23 @@ impl World {
             let start = world.time();
             let mut trajectory = Trajectory::new(times.to_vec(), &world.state.bodies);
             world.report.estimate = Some(0.0);
-            let (mut passed, mut step) = (0.0, duration / 16.0);
-            let (mut next, mut steps) = (0, 0_usize);
-            loop {
-                while next < times.len() && times[next] <= passed {
-                    let bodies = &world.state.bodies;
-                    trajectory.write(next, 0, &bodies.poses, &bodies.twists);
-                    next += 1;
+            let mut run = Run {
+                start,
+                duration,
+                tolerance,
+                trajectory: &mut trajectory,
+                passed: 0.0,
+                next: 0,
+                stretch: duration,
+                step: duration / 16.0,
+                wait: [0, 1],
+            };
+            let mut steps = 0_usize;
+            while run.passed < duration {
+                watch().map_err(|source| Error::Interrupted { source })?;
+                if run.wait[0] == 0 && world.stretch(&mut run, watch)? {
+                    continue;
                 }
-                if passed >= duration {
-                    break;
-                }
-                let stop = times.get(next).copied().unwrap_or(duration).min(duration);
                 steps += 1;
                 if steps > MOST_STEPS + times.len() {
                     let why = format!(
@@ -45,20 +77,9 @@ impl World {
                     );
                     return Err(Error::Tolerance { tolerance, time: world.time(), why });
                 }
-                let dt = step.min(stop - passed);
-                let (taken, proposed) = if world.step_apart(dt, tolerance, watch)? {
-                    (dt, 2.0 * dt)
-                } else {
-                    world.step_doubled(dt, tolerance)?
-                };
-                world.settle_joints()?;
-                world.planned();
-                // What is left before a stop by rounding is none.
-                passed =
-                    if stop - (passed + taken) <= 1e-12 * duration { stop } else { passed + taken };
-                step = proposed;
-                watch().map_err(|source| Error::Interrupted { source })?;
+                world.step_between(&mut run)?;
             }
+            run.hand_out(world);
             if world.notices() {
                 world.notice();
             }
@@ -69,28 +90,95 @@ impl World {
         })
     }
 
-    /// One step in which nothing comes near anything else, by the methods of free motion and of joints; false, and nothing done, if
-    /// something may.
-    fn step_apart(&mut self, dt: Real, tolerance: Real, watch: &mut Watch<'_>) -> Result<bool> {
+    /// One step that is taken twice, up to the next sample.
+    fn step_between(&mut self, run: &mut Run<'_>) -> Result<()> {
+        run.hand_out(self);
+        run.wait[0] = run.wait[0].saturating_sub(1);
+        let times = &run.trajectory.times;
+        let stop = times.get(run.next).copied().unwrap_or(run.duration).min(run.duration);
+        let dt = run.step.min(stop - run.passed);
+        let (taken, proposed) = self.step_doubled(dt, run.tolerance)?;
+        self.settle_joints()?;
+        self.planned();
+        run.step = proposed;
+        run.pass(taken, stop);
+        Ok(())
+    }
+
+    /// A stretch in which every group that may meet or touch goes from event to event, and all others by their methods;
+    /// false, and nothing done, if that cannot be.
+    fn stretch(&mut self, run: &mut Run<'_>, watch: &mut Watch<'_>) -> Result<bool> {
         let before = self.state.clone();
-        if self.meets() {
-            self.state.contacts.spread.clear();
-            self.detect(dt)?;
-        }
-        self.scratch.contacts.methods = true;
-        self.find_islands();
-        if self.scratch.contacts.is_idle() {
-            let (start, mut none) = (self.time(), Trajectory::new(Vec::new(), &self.state.bodies));
-            self.each_span(dt, |world, span| {
-                world.advance_to_tolerance(span, tolerance, (start, &mut none), watch)
-            })?;
-            // Detection foresaw the ways by velocity and gravity; other forces may have led farther.
-            if !self.meets() || self.state.contacts.foresaw(&before.bodies, &self.state.bodies) {
+        let (report, hits) = (self.report.clone(), self.events.hit.len());
+        let rest = run.duration - run.passed;
+        let mut dt = run.stretch.min(rest);
+        let short = self.state.contacts.short_stretch(&self.state.bodies, |i| self.pull(i));
+        let mut thrown: Vec<(u32, Real)> = Vec::new();
+        for _ in 0..MOST_THROWN {
+            if !self.find_groups(&mut dt, short, &thrown)? {
+                break;
+            }
+            self.scratch.contacts.by_events = Some(ByEvents::default());
+            let result = self.each_span(dt, |world, span| {
+                let sampled = (run.start, &mut *run.trajectory);
+                world.advance_to_tolerance(span, run.tolerance, sampled, watch)
+            });
+            let booked = self.scratch.contacts.by_events.take().unwrap_or_default();
+            result?;
+            let foresaw = self.state.contacts.foresaw(&before.bodies, &self.state.bodies);
+            if booked.thrown.is_empty() && booked.gave_up.is_none() && (foresaw || !self.meets()) {
+                self.report.events += booked.events;
+                self.settle_joints()?;
+                self.planned();
+                run.pass(dt, run.duration);
+                run.stretch = 2.0 * dt;
+                run.next = run.trajectory.times.partition_point(|t| *t <= run.passed);
+                run.wait = [0, 1];
                 return Ok(true);
+            }
+            self.go_back(&before);
+            self.report = report.clone();
+            self.events.hit.truncate(hits);
+            if booked.gave_up.is_some() {
+                break;
+            }
+            thrown.extend(booked.thrown);
+            if !foresaw {
+                dt *= 0.5;
             }
         }
         self.go_back(&before);
+        self.state.contacts.spread.clear();
+        run.stretch = dt;
+        run.wait = [run.wait[1], (2 * run.wait[1]).min(64)];
         Ok(false)
+    }
+
+    /// Groups of what may meet within dt, which is shortened where that makes them smaller; false if some group is not one for events.
+    fn find_groups(&mut self, dt: &mut Real, short: Real, thrown: &[(u32, Real)]) -> Result<bool> {
+        loop {
+            if self.meets() {
+                let mut contacts = std::mem::take(&mut self.state.contacts);
+                contacts.spread_by(*dt, &self.state.bodies, |i| self.pull(i));
+                contacts.spread_out(thrown);
+                self.state.contacts = contacts;
+                self.detect(*dt)?;
+            }
+            self.scratch.contacts.methods = true;
+            self.find_islands();
+            if self.largest_group() <= FEW || *dt <= short {
+                return Ok(self.suits_events());
+            }
+            *dt = (0.5 * *dt).max(short);
+        }
+    }
+
+    /// Acceleration (m/s²) by gravity and steady forces.
+    fn pull(&self, i: usize) -> Vec2 {
+        let bodies = &self.state.bodies;
+        let mass = &bodies.masses[i];
+        let gravity = self.state.settings.gravity.component_mul(&mass.gravity_scale);
+        gravity + bodies.forces[i].force.component_mul(&mass.inverse)
     }
 
     /// One step of at most `dt` to a tolerance; returns its length and a length for the next (s).
@@ -146,5 +234,22 @@ impl World {
             if apart == 0.0 { 0.0 } else { apart / way }
         };
         (0..bodies.len()).map(error).fold(0.0, Real::max)
+    }
+}
+
+impl Run<'_> {
+    /// Writes the samples that are due, where a step ended on them.
+    fn hand_out(&mut self, world: &World) {
+        while self.trajectory.times.get(self.next).is_some_and(|time| *time <= self.passed) {
+            let bodies = &world.state.bodies;
+            self.trajectory.write(self.next, 0, &bodies.poses, &bodies.twists);
+            self.next += 1;
+        }
+    }
+
+    /// Time goes on; what is left before a stop by rounding is none.
+    fn pass(&mut self, dt: Real, stop: Real) {
+        let now = self.passed + dt;
+        self.passed = if stop - now <= 1e-12 * self.duration { stop } else { now };
     }
 }

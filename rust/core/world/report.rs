@@ -36,6 +36,8 @@ pub struct StepReport {
     pub parts: u32,
     /// Impacts resolved.
     pub impacts: u64,
+    /// Events located in time by runs to a tolerance: shapes that met, contacts that let go, broke away or came to rest.
+    pub events: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows of contacts still lack.
     pub residual: Real,
     /// Smallest step (s); infinite where only closed forms were needed.
@@ -57,6 +59,7 @@ impl Default for StepReport {
             solves: 0,
             parts: 1,
             impacts: 0,
+            events: 0,
             residual: 0.0,
             smallest_step: Real::INFINITY,
             estimate: None,

@@ -323,7 +323,7 @@ impl World {
             evaluations: 0,
         };
         let motion = Motion { poses: &mut poses[run.clone()], twists: &mut twists[run], ledger };
-        (System { forces, joints: None }, motion, &mut scratch.methods)
+        (System { forces, joints: None, modes: None }, motion, &mut scratch.methods)
     }
 
     /// Checks that the motion is finite, and forgets the forces that were applied for this step.

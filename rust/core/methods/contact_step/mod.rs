@@ -11,7 +11,7 @@
 mod group;
 mod impacts;
 pub mod joints;
-mod law;
+pub(in crate::methods) mod law;
 mod path;
 mod project;
 mod settle;
@@ -27,6 +27,7 @@ use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
 pub use group::{Group, Hit, Link, Mass, Watched};
 pub use joints::Tie;
+pub(in crate::methods) use path::first_root;
 
 /// What else acts on the bodies of a group.
 pub trait Surroundings {

@@ -214,7 +214,7 @@ const NEAREST: Real = 1e-10;
 const SAME: Real = 1e-14;
 
 /// Smallest δ > 0 with g + uδ + ½aδ² = 0 for a gap g > 0.
-fn first_root(gap: Real, rate: Real, bend: Real) -> Option<Real> {
+pub(in crate::methods) fn first_root(gap: Real, rate: Real, bend: Real) -> Option<Real> {
     let square = rate * rate - 2.0 * bend * gap;
     if square < 0.0 || (rate >= 0.0 && bend >= 0.0) {
         return None;

@@ -7,6 +7,7 @@
 mod accelerate;
 mod lead;
 mod settle;
+mod together;
 
 use crate::body::Mass;
 use crate::constraints::Velocity;

@@ -4,7 +4,7 @@ use crate::body::{BodyDef, BodyKind};
 use crate::error::Result;
 use crate::math::{Pose, Real, sin_cos, vec2};
 use crate::scenes::stage::{DT, G, at_fixed_step, heavy, rough, standing};
-use crate::scenes::{Answer, Judged, Motion, Scene, at};
+use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced, at};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -100,7 +100,7 @@ pub static BOWL: Scene = Scene {
         dt: DT,
         length: BOWL_RADIUS,
         fixed: 1e-2,
-        toleranced: None,
+        toleranced: Some(Toleranced { tolerance: 1e-9, error: 1e-3 }),
         judged: Judged::Contact { order: true },
     }),
     checks: &[

@@ -4,9 +4,10 @@ use crate::body::{BodyDef, Mixing, Rule};
 use crate::error::Result;
 use crate::math::{Pose, Real, atan2};
 use crate::scenes::stage::{
-    DT, G, HALF, add_ground, at_fixed_step, ground, heavy, on_plane, rough, standing, threshold,
+    DT, G, HALF, TOLERANCE, add_ground, at_fixed_step, ground, heavy, on_plane, rough, standing,
+    threshold, threshold_to, with_tolerance,
 };
-use crate::scenes::{Answer, Judged, Motion, Scene};
+use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -63,7 +64,7 @@ pub static ROLLING: Scene = Scene {
         dt: DT,
         length: 13.0,
         fixed: 1e-4,
-        toleranced: None,
+        toleranced: Some(Toleranced { tolerance: TOLERANCE, error: 1e-11 }),
         judged: Judged::Contact { order: true },
     }),
     checks: &[
@@ -73,17 +74,25 @@ pub static ROLLING: Scene = Scene {
             Ok((world.bodies().twists[1].linear.norm() / 2.0 / 2.924_776_914_57 - 1.0).abs())
         }),
         at_fixed_step("least friction with which it rolls against 1/6, relative", 1e-4, || {
-            let rolls = |friction: Real| {
-                let mut world = disks(atan2(HALF, 1.0), &[[friction, 0.0, 0.0]])?;
-                world.steps(DT, 60)?;
-                let twist = &world.bodies().twists[1];
-                let slip = twist.linear.norm() + twist.angular * RADIUS;
-                Ok(slip.abs() < 1e-9 * twist.linear.norm())
-            };
+            let rolls = |friction: Real| rolls(friction, |world| world.steps(DT, 60));
             Ok((6.0 * threshold([0.1, 0.3], rolls)? - 1.0).abs())
+        }),
+        with_tolerance("least friction with which it rolls against 1/6, relative", 1e-8, || {
+            let rolls =
+                |friction: Real| rolls(friction, |world| world.advance(1.0, TOLERANCE).map(drop));
+            Ok((6.0 * threshold_to(32, [0.1, 0.3], rolls)? - 1.0).abs())
         }),
     ],
 };
+
+/// Whether a disk rolls down the incline: whether its slip is rounding.
+fn rolls(friction: Real, run: impl Fn(&mut World) -> Result<()>) -> Result<bool> {
+    let mut world = disks(atan2(HALF, 1.0), &[[friction, 0.0, 0.0]])?;
+    run(&mut world)?;
+    let twist = &world.bodies().twists[1];
+    let slip = twist.linear.norm() + twist.angular * RADIUS;
+    Ok(slip.abs() < 1e-9 * twist.linear.norm())
+}
 
 /// Start (m/s) and friction; when it begins to roll (s).
 const SPEED: Real = 10.0;
@@ -109,7 +118,7 @@ pub static SLIDE_TO_ROLL: Scene = Scene {
         dt: DT,
         length: 11.0,
         fixed: 1e-3,
-        toleranced: None,
+        toleranced: Some(Toleranced { tolerance: TOLERANCE, error: 1e-10 }),
         judged: Judged::Contact { order: false },
     }),
     checks: &[

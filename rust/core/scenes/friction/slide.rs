@@ -2,12 +2,13 @@
 
 use crate::body::{Friction, Surface};
 use crate::error::Result;
-use crate::forces::ForceSchedule;
+use crate::forces::{BodyColumns, BoxError, FieldFacts, ForceField, ForceSchedule};
 use crate::math::{Pose, Real, Wrench, atan2, vec2};
 use crate::scenes::stage::{
-    DT, G, HALF, add_ground, at_fixed_step, ground, heavy, on_plane, rough, standing,
+    DT, G, HALF, TOLERANCE, add_ground, at_fixed_step, ground, heavy, on_plane, rough, standing,
+    with_tolerance,
 };
-use crate::scenes::{Answer, Judged, Motion, Scene};
+use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -61,6 +62,19 @@ pub static INCLINE: Scene = Scene {
             let exact = 0.5 * G * sin * 1e-3 * 3600.0;
             Ok((gone(&world, slope) / exact - 1.0).abs())
         }),
+        with_tolerance("way in 60 s with μ = 1.001 tan α (m)", 1e-12, || {
+            let [_, _, slope] = incline();
+            let mut world = on_slope(slope, &rough(1.001 * HALF), 0.0)?;
+            world.advance(60.0, TOLERANCE)?;
+            Ok(gone(&world, slope))
+        }),
+        with_tolerance("way in 60 s with μ = 0.999 tan α, relative", 1e-11, || {
+            let [sin, _, slope] = incline();
+            let mut world = on_slope(slope, &rough(0.999 * HALF), 0.0)?;
+            world.advance(60.0, TOLERANCE)?;
+            let exact = 0.5 * G * sin * 1e-3 * 3600.0;
+            Ok((gone(&world, slope) / exact - 1.0).abs())
+        }),
     ],
 };
 
@@ -79,7 +93,7 @@ pub static SLIDING: Scene = Scene {
         dt: DT,
         length: 14.0,
         fixed: 1e-5,
-        toleranced: None,
+        toleranced: Some(Toleranced { tolerance: TOLERANCE, error: 1e-12 }),
         judged: Judged::Contact { order: true },
     }),
     checks: &[at_fixed_step("acceleration against 1.75486614874 m/s², relative", 1e-5, || {
@@ -109,7 +123,7 @@ pub static STOPPING: Scene = Scene {
         dt: DT,
         length: 10.193_679_918_5,
         fixed: 1e-4,
-        toleranced: None,
+        toleranced: Some(Toleranced { tolerance: TOLERANCE, error: 1e-10 }),
         judged: Judged::Contact { order: false },
     }),
     checks: &[
@@ -146,15 +160,52 @@ const BREAK: Real = STATIC * G / RATE;
 /// Length of a substep (s).
 const SUBSTEP: Real = DT / 4.0;
 
-/// A block that is pulled ever harder: the force of each substep is the one in its middle.
-fn pulled() -> Result<World> {
+/// The block that is to be pulled, at rest.
+fn resting() -> Result<World> {
     let mut world = heavy()?;
     let surface =
         Surface { friction: Friction { sticking: STATIC, sliding: KINETIC }, ..rough(0.0) };
     add_ground(&mut world, 0.0, surface.clone())?;
     let mut def = standing(Shape::rectangle(SIZE[0], SIZE[1])?, block(0.0, 0.0), surface);
     def.mass = Some(1.0);
-    let body = world.add_body(def)?;
+    world.add_body(def)?;
+    Ok(world)
+}
+
+/// How far the block has gone (m).
+fn way_pulled(t: Real) -> Real {
+    let since = (t - BREAK).max(0.0);
+    let jump = (STATIC - KINETIC) * G;
+    since * since * (0.5 * jump + RATE * since / 6.0)
+}
+
+/// The pull on the block, F = ct.
+struct Ramp;
+
+impl ForceField for Ramp {
+    fn name(&self) -> &'static str {
+        "ramp"
+    }
+
+    fn add_forces(
+        &self,
+        time: Real,
+        _: &BodyColumns<'_>,
+        out: &mut [Wrench],
+    ) -> std::result::Result<(), BoxError> {
+        out[1].force.x += RATE * time;
+        Ok(())
+    }
+
+    fn facts(&self) -> FieldFacts {
+        FieldFacts { velocity_dependent: false, ..FieldFacts::default() }
+    }
+}
+
+/// A block that is pulled ever harder: the force of each substep is the one in its middle.
+fn pulled() -> Result<World> {
+    let mut world = resting()?;
+    let body = world.bodies().handles()[1];
     let pieces = 0..=2400;
     let times = pieces.clone().map(|k| SUBSTEP * Real::from(k)).collect();
     let pull = |k: i32| Wrench::new(vec2(RATE * SUBSTEP * (Real::from(k) + 0.5), 0.0), 0.0);
@@ -174,26 +225,32 @@ pub static BREAKAWAY: Scene = Scene {
     about: "Pulled by F = ct it stays until μs·m·g/c, and goes with (ct − μk·m·g)/m from then on. The pull is a schedule that changes with each substep.",
     answer: Answer::Motion(Motion {
         build: pulled,
-        exact: |t| {
-            let since = (t - BREAK).max(0.0);
-            let jump = (STATIC - KINETIC) * G;
-            let way = since * since * (0.5 * jump + RATE * since / 6.0);
-            vec![ground(0.0), block(0.0, way)]
-        },
+        exact: |t| vec![ground(0.0), block(0.0, way_pulled(t))],
         duration: 10.0,
         dt: DT,
         length: 43.5,
         fixed: 1e-3,
+        // The pull is a staircase here; to a tolerance it is the ramp itself, below.
         toleranced: None,
         judged: Judged::Contact { order: false },
     }),
-    checks: &[at_fixed_step("moment at which it breaks away, relative", 1e-3, || {
-        let mut world = pulled()?;
-        while world.bodies().twists[1].linear.x < 1e-9 && world.time() < 10.0 {
-            world.step(SUBSTEP)?;
-        }
-        Ok(((world.time() - 0.5 * SUBSTEP) / BREAK - 1.0).abs())
-    })],
+    checks: &[
+        with_tolerance("way under the ramp itself, over ten samples, of 43.5 m", 1e-9, || {
+            let mut world = resting()?;
+            world.add_field(Ramp);
+            let times: Vec<Real> = (1..=10).map(Real::from).collect();
+            let run = world.advance_sampled(10.0, TOLERANCE, &times)?;
+            let off = |k: usize| (run.pose(k, 1).position.x - way_pulled(times[k])).abs() / 43.5;
+            Ok((0..10).map(off).fold(0.0, Real::max))
+        }),
+        at_fixed_step("moment at which it breaks away, relative", 1e-3, || {
+            let mut world = pulled()?;
+            while world.bodies().twists[1].linear.x < 1e-9 && world.time() < 10.0 {
+                world.step(SUBSTEP)?;
+            }
+            Ok(((world.time() - 0.5 * SUBSTEP) / BREAK - 1.0).abs())
+        }),
+    ],
 };
 
 /// Speed (m/s) and friction of the conveyor.
@@ -224,7 +281,7 @@ pub static CONVEYOR: Scene = Scene {
         dt: DT,
         length: 3.0,
         fixed: 1e-3,
-        toleranced: None,
+        toleranced: Some(Toleranced { tolerance: TOLERANCE, error: 1e-10 }),
         judged: Judged::Contact { order: false },
     }),
     checks: &[

@@ -3,7 +3,10 @@
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::math::{Real, atan2, vec2};
-use crate::scenes::stage::{DT, G, add_ground, heavy, on_plane, rough, standing, threshold};
+use crate::scenes::stage::{
+    DT, G, TOLERANCE, add_ground, heavy, on_plane, rough, standing, threshold, threshold_to,
+    with_tolerance,
+};
 use crate::scenes::{Answer, Number, Scene};
 use crate::shapes::Shape;
 use crate::world::World;
@@ -39,6 +42,17 @@ fn moved(mut world: World) -> Result<[Real; 2]> {
     Ok(moved)
 }
 
+/// The same to a tolerance after 2 s: what stays has not moved at all.
+fn moved_at_all(mut world: World) -> Result<[Real; 2]> {
+    let start = world.bodies().poses[1];
+    world.advance(2.0, TOLERANCE)?;
+    let now = world.bodies().poses[1];
+    Ok([(now.angle - start.angle).abs(), (now.position - start.position).norm()])
+}
+
+/// What counts as having moved at all (rad, m): far above rounding, far below what a millionth beyond a threshold does in 2 s.
+const AT_ALL: Real = 1e-8;
+
 pub static TIPPING: Scene = Scene {
     id: "F8",
     name: "tipping_box",
@@ -51,8 +65,21 @@ pub static TIPPING: Scene = Scene {
         let what = "tan α at which a box 0.5 × 1 tips".into();
         Ok(vec![Number { what, value, exact: WIDTH / HEIGHT, asked: 1e-2 }])
     }),
-    checks: &[],
+    checks: &[with_tolerance("tan α at which a box 0.5 × 1 tips, relative", 1e-6, || {
+        let tips = |tangent: Real| {
+            Ok(moved_at_all(upright(atan2(tangent, 1.0), 2.0, [0.0; 2])?)?[0] > AT_ALL)
+        };
+        Ok((threshold_to(24, [0.2, 1.0], tips)? / (WIDTH / HEIGHT) - 1.0).abs())
+    })],
 };
+
+/// Height at which the box is pushed (m).
+const PUSHED_AT: Real = 0.9;
+
+/// A force there, as one at the centre and a torque.
+fn push(force: Real) -> [Real; 2] {
+    [force, -force * (PUSHED_AT - 0.5 * HEIGHT)]
+}
 
 pub static PUSHED_BOX: Scene = Scene {
     id: "F9",
@@ -60,8 +87,6 @@ pub static PUSHED_BOX: Scene = Scene {
     title: "A box pushed at a height H tips or slides",
     about: "It tips iff F > mgb/2H, and slides iff F > μmg.",
     answer: Answer::Numbers(|| {
-        const PUSHED_AT: Real = 0.9;
-        let push = |force: Real| [force, -force * (PUSHED_AT - 0.5 * HEIGHT)];
         let tips = |force: Real| Ok(moved(upright(0.0, 1.0, push(force))?)?[0] > MOVED);
         let slides = |force: Real| {
             let [turn, way] = moved(upright(0.0, 0.2, push(force))?)?;
@@ -86,7 +111,20 @@ pub static PUSHED_BOX: Scene = Scene {
             ),
         ])
     }),
-    checks: &[],
+    checks: &[
+        with_tolerance("force at 0.9 m at which it tips, relative, μ = 1", 1e-6, || {
+            let tips = |force: Real| Ok(moved_at_all(upright(0.0, 1.0, push(force))?)?[0] > AT_ALL);
+            let exact = G * WIDTH / (2.0 * PUSHED_AT);
+            Ok((threshold_to(24, [0.1 * G, 0.6 * G], tips)? / exact - 1.0).abs())
+        }),
+        with_tolerance("force at which it slides, relative, μ = 0.2", 1e-6, || {
+            let slides = |force: Real| {
+                let [turn, way] = moved_at_all(upright(0.0, 0.2, push(force))?)?;
+                Ok(way > AT_ALL && turn < AT_ALL)
+            };
+            Ok((threshold_to(24, [0.1 * G, 0.26 * G], slides)? / (0.2 * G) - 1.0).abs())
+        }),
+    ],
 };
 
 /// Width of a domino of 1 m, and how many there are.

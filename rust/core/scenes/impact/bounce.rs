@@ -3,8 +3,10 @@
 use crate::body::{BodyDef, Surface};
 use crate::error::Result;
 use crate::math::{Pose, Real, vec2};
-use crate::scenes::stage::{DT, G, add_ground, at_fixed_step, ground, heavy, smooth};
-use crate::scenes::{Answer, Judged, Motion, Scene, at};
+use crate::scenes::stage::{
+    DT, G, TOLERANCE, add_ground, at_fixed_step, ground, heavy, smooth, with_tolerance,
+};
+use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced, at};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -64,7 +66,7 @@ pub static DROPS: Scene = Scene {
         dt: DT,
         length: 1.0,
         fixed: 1e-2,
-        toleranced: None,
+        toleranced: Some(Toleranced { tolerance: TOLERANCE, error: 1e-9 }),
         judged: Judged::Contact { order: false },
     }),
     checks: &[
@@ -96,8 +98,40 @@ pub static DROPS: Scene = Scene {
             });
             Ok(worst(off))
         }),
+        with_tolerance("moments of the first 20 bounces of each, relative", 1e-10, || {
+            let mut world = dropped(1.0, &RESTITUTIONS)?;
+            world.advance(10.0, TOLERANCE)?;
+            let hits = &world.events().hit;
+            let off = (1..=3).flat_map(|k| {
+                let body = world.bodies().handles()[k];
+                let own = hits.iter().filter(move |hit| hit.bodies.contains(&body));
+                let e = RESTITUTIONS[k - 1];
+                let exact = bounces(1.0, e).take(20);
+                own.map(|hit| hit.time).zip(exact).map(|(time, exact)| time / exact - 1.0)
+            });
+            Ok(worst(off))
+        }),
+        with_tolerance("speed left a billionth after coming to rest (m/s)", 0.0, || {
+            let mut left: Real = 0.0;
+            for (k, rest) in RESTS.iter().enumerate() {
+                let mut world = dropped(1.0, &RESTITUTIONS)?;
+                world.advance(rest * (1.0 + 1e-9), TOLERANCE)?;
+                left = left.max(world.bodies().twists[k + 1].linear.norm());
+            }
+            Ok(left)
+        }),
     ],
 };
+
+/// Moments at which a ball that is dropped from a height meets the ground.
+fn bounces(height: Real, restitution: Real) -> impl Iterator<Item = Real> {
+    let first = libm::sqrt(2.0 * height / G);
+    let mut flight = 2.0 * first;
+    std::iter::successors(Some(first), move |time| {
+        flight *= restitution;
+        Some(time + flight)
+    })
+}
 
 fn height_now(world: &World, k: usize) -> Real {
     world.bodies().poses[k + 1].position.y - RADIUS
@@ -128,17 +162,38 @@ pub static ELASTIC_BALL: Scene = Scene {
         dt: DT,
         length: 5.0,
         fixed: 1e-12,
-        toleranced: None,
+        toleranced: Some(Toleranced { tolerance: TOLERANCE, error: 1e-12 }),
         judged: Judged::Contact { order: false },
     }),
-    checks: &[at_fixed_step("change of the energy, largest over the steps", 1e-12, || {
-        let mut world = dropped(5.0, &[1.0])?;
-        let before = world.energy()?.total();
-        let mut worst: Real = 0.0;
-        for _ in 0..1200 {
-            world.step(DT)?;
-            worst = worst.max((world.energy()?.total() / before - 1.0).abs());
-        }
-        Ok(worst)
-    })],
+    checks: &[
+        at_fixed_step("change of the energy, largest over the steps", 1e-12, || {
+            let mut world = dropped(5.0, &[1.0])?;
+            let before = world.energy()?.total();
+            let mut worst: Real = 0.0;
+            for _ in 0..1200 {
+                world.step(DT)?;
+                worst = worst.max((world.energy()?.total() / before - 1.0).abs());
+            }
+            Ok(worst)
+        }),
+        with_tolerance("change of the energy, largest over the samples", 1e-12, || {
+            let mut world = dropped(5.0, &[1.0])?;
+            let before = world.energy()?.total();
+            let mut worst: Real = 0.0;
+            for _ in 0..200 {
+                world.advance(0.1, TOLERANCE)?;
+                worst = worst.max((world.energy()?.total() / before - 1.0).abs());
+            }
+            Ok(worst)
+        }),
+        with_tolerance("moments of the bounces, relative", 1e-10, || {
+            let mut world = dropped(5.0, &[1.0])?;
+            world.advance(20.0, TOLERANCE)?;
+            let hits = &world.events().hit;
+            if hits.len() != 10 {
+                return Ok(Real::INFINITY);
+            }
+            Ok(worst(hits.iter().zip(bounces(5.0, 1.0)).map(|(hit, exact)| hit.time / exact - 1.0)))
+        }),
+    ],
 };

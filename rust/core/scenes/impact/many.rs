@@ -3,7 +3,7 @@
 use crate::body::{BodyDef, BodyKind};
 use crate::error::Result;
 use crate::math::{Real, Twist, Vec2, vec2};
-use crate::scenes::stage::{DT, G, Random, at_fixed_step, smooth};
+use crate::scenes::stage::{DT, G, Random, TOLERANCE, at_fixed_step, smooth, with_tolerance};
 use crate::scenes::{Answer, Number, Scene, weightless};
 use crate::shapes::Shape;
 use crate::world::World;
@@ -13,13 +13,39 @@ pub static GALPERIN: Scene = Scene {
     name: "galperin",
     title: "A heavy ball drives a light one against a wall, again and again",
     about: "Wall, 1 kg at rest, 100^N kg arriving, e = 1: the number of hits has the first digits of π, 3 and 31 for N = 0 and 1 (Galperin, Playing pool with π, 2003).",
-    answer: Answer::Numbers(galperin),
-    checks: &[],
+    answer: Answer::Numbers(|| {
+        galperin(&[(1.0, 3.0), (100.0, 31.0)], |world| world.steps(DT, 1200))
+    }),
+    checks: &[
+        with_tolerance(
+            "hits with 1, 100, 1e4 and 1e6 kg, off from 3, 31, 314 and 3141",
+            0.0,
+            || {
+                Ok(of_pi()?
+                    .iter()
+                    .step_by(2)
+                    .map(|n| (n.value - n.exact).abs())
+                    .fold(0.0, Real::max))
+            },
+        ),
+        with_tolerance("change of the energy", 1e-10, || {
+            Ok(of_pi()?.iter().skip(1).step_by(2).map(|n| n.value.abs()).fold(0.0, Real::max))
+        }),
+    ],
 };
 
-fn galperin() -> Result<Vec<Number>> {
+/// The same to a tolerance, with more digits.
+fn of_pi() -> Result<Vec<Number>> {
+    let digits = [(1.0, 3.0), (1e2, 31.0), (1e4, 314.0), (1e6, 3141.0)];
+    galperin(&digits, |world| world.advance(20.0, TOLERANCE).map(drop))
+}
+
+fn galperin(
+    digits: &[(Real, Real)],
+    run: impl Fn(&mut World) -> Result<()>,
+) -> Result<Vec<Number>> {
     let mut numbers = Vec::new();
-    for (heavy, hits) in [(1.0, 3.0), (100.0, 31.0)] {
+    for &(heavy, hits) in digits {
         let mut world = weightless()?;
         add_box(&mut world, vec2(-0.5, 0.0), [1.0, 10.0])?;
         for (x, v, mass) in [(2.0, 0.0, 1.0), (5.0, -1.0, heavy)] {
@@ -32,7 +58,7 @@ fn galperin() -> Result<Vec<Number>> {
             })?;
         }
         let before = world.energy()?.total();
-        world.steps(DT, 1200)?;
+        run(&mut world)?;
         let value = world.report().impacts as Real;
         let what = format!("hits with {heavy} kg");
         numbers.push(Number { what, value, exact: hits, asked: 0.0 });
@@ -113,6 +139,12 @@ pub static BILLIARD: Scene = Scene {
             world.steps(DT, 30)?;
             let ends = world.bodies().poses.iter().zip(&start);
             Ok(ends.map(|(end, start)| (end.position - start.position).norm()).fold(0.0, Real::max))
+        }),
+        with_tolerance("change of the energy", 1e-10, || {
+            let mut world = disks_in_a_box(0.0, (20, 10))?;
+            let before = world.energy()?.total();
+            world.advance(60.0, TOLERANCE)?;
+            Ok((world.energy()?.total() / before - 1.0).abs())
         }),
     ],
 };

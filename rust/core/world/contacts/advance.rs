@@ -35,6 +35,8 @@ pub(in crate::world) struct ContactScratch {
     pub methods: bool,
     /// The groups that are left to it; none told of: none.
     left: Vec<bool>,
+    /// Groups that are not are moved from event to event.
+    pub by_events: Option<super::ByEvents>,
     /// Solvers of the groups with joints, by the first of those: they know its graph.
     solvers: FxHashMap<u32, LinkSolver>,
     pub(super) group: Group,
@@ -67,6 +69,14 @@ impl ContactScratch {
     /// Bodies of the links of a group.
     pub fn links_of(&self, k: usize) -> impl Iterator<Item = [u32; 2]> {
         self.islands.group(k).iter().map(|link| self.links[*link as usize])
+    }
+
+    /// Patches of a group, and the bodies of each.
+    pub fn patches_of(&self, k: usize) -> impl Iterator<Item = (u32, [u32; 2])> {
+        self.islands.group(k).iter().filter_map(|link| {
+            let place = self.solid.get(*link as usize)?;
+            Some((*place, self.links[*link as usize]))
+        })
     }
 
     /// Joints of a group.

@@ -2,6 +2,7 @@
 
 mod advance;
 mod backup;
+mod by_events;
 #[cfg(test)]
 mod coulomb;
 mod detect;
@@ -18,6 +19,7 @@ mod view;
 
 pub(super) use advance::ContactScratch;
 pub(super) use backup::ContactBackup;
+pub(super) use by_events::ByEvents;
 pub use events::{ContactEvent, Events};
 pub use hooks::{ContactHooks, PreSolve, ShapeView};
 pub(super) use near::{Near, Patch};
@@ -233,9 +235,12 @@ impl Contacts {
     }
 }
 
-/// How much larger than needed a box is kept (m).
+/// How much larger than needed a box is kept, as a part of the width.
+const MARGIN: Real = 0.1;
+
+/// The same (m).
 fn margin(collider: &Collider) -> Real {
-    0.1 * collider.width
+    MARGIN * collider.width
 }
 
 /// A motion beyond this part of a collider's width is a far one: the collider may bounce and end up anywhere around.

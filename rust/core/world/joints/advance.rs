@@ -9,8 +9,10 @@ use crate::error::Result;
 use crate::forces::{Forces, Ledger, Shown};
 use crate::joint::Joint;
 use crate::math::{Pose, Real, Twist, Wrench, vec2};
+use crate::methods::events::Modes;
 use crate::methods::joined::{Joints, Tie};
 use crate::methods::{Adaptive, Control, Motion, Progress, Scratch, Sink, Span, System, Watch};
+use crate::world::contacts::Contacts;
 use crate::world::{State, Trajectory, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -19,7 +21,7 @@ pub(in crate::world) struct JoinedScratch {
     /// Islands by their first joint: they know its graph.
     groups: FxHashMap<u32, Group>,
     /// The one at work.
-    group: Group,
+    pub group: Group,
     /// Slot of each body in it; valid where the mark is its.
     slots: Vec<(u32, u32)>,
     mark: u32,
@@ -34,14 +36,16 @@ impl JoinedScratch {
 
 /// Bodies of an island, gathered from the columns.
 #[derive(Clone, Debug, Default)]
-struct Group {
-    members: Vec<u32>,
-    poses: Vec<Pose>,
-    twists: Vec<Twist>,
-    masses: Vec<Mass>,
+pub(in crate::world) struct Group {
+    pub members: Vec<u32>,
+    pub poses: Vec<Pose>,
+    pub twists: Vec<Twist>,
+    pub masses: Vec<Mass>,
     steady: Vec<Wrench>,
     /// What errors of bodies are measured against: their sizes, or how far their joints reach (m).
-    sizes: Vec<Real>,
+    pub sizes: Vec<Real>,
+    /// Patches of what may touch, and the slots of their bodies.
+    pub patches: Vec<(u32, [u32; 2])>,
     /// Places of the joints among those of the world.
     places: Vec<u32>,
     joints: Joints,
@@ -55,6 +59,7 @@ impl Group {
         self.masses.clear();
         self.steady.clear();
         self.sizes.clear();
+        self.patches.clear();
         self.places.clear();
         self.joints.clear();
     }
@@ -86,8 +91,9 @@ impl World {
     pub(in crate::world) fn advance_joined(&mut self, span: Span) -> Result<()> {
         let method = self.method;
         self.each_joined(|world| {
-            let ledger = world
-                .run_joined(|system, motion, scratch| method.run(system, motion, span, scratch))?;
+            let ledger = world.run_joined(false, |system, motion, (scratch, _)| {
+                method.run(system, motion, span, scratch)
+            })?;
             world.scatter_joined(ledger);
             world.report.steps += u64::from(span.substeps);
             world.report.smallest_step = world.report.smallest_step.min(span.h());
@@ -114,7 +120,7 @@ impl World {
                 }
             };
             let mut progress = Progress::default();
-            let ledger = world.run_joined(|system, motion, scratch| {
+            let ledger = world.run_joined(false, |system, motion, (scratch, _)| {
                 let control = Control { tolerance, sizes: &|slot| sizes[slot], samples };
                 let handlers: (&mut Sink<'_>, _) = (&mut sink, &mut *watch);
                 let adaptive = Adaptive::new(&control, motion, span);
@@ -138,16 +144,28 @@ impl World {
             if !self.scratch.contacts.leaves(k) {
                 continue;
             }
-            let Some(first) = self.scratch.contacts.joints_of(k).next() else { continue };
-            let joined = &mut self.scratch.joined;
-            joined.group = joined.groups.remove(&first).unwrap_or_default();
-            self.gather_joined(k);
-            let result = advance(self);
-            let joined = &mut self.scratch.joined;
-            joined.groups.insert(first, std::mem::take(&mut joined.group));
-            result?;
+            self.with_island(k, &mut advance)?;
         }
         Ok(())
+    }
+
+    /// Gathers an island with its contacts, and lets `advance` move it.
+    pub(in crate::world) fn with_island(
+        &mut self,
+        k: usize,
+        advance: impl FnOnce(&mut Self) -> Result<()>,
+    ) -> Result<()> {
+        let first = self.scratch.contacts.joints_of(k).next();
+        let joined = &mut self.scratch.joined;
+        joined.group = first.and_then(|first| joined.groups.remove(&first)).unwrap_or_default();
+        self.gather_joined(k);
+        let result = advance(self);
+        let joined = &mut self.scratch.joined;
+        let group = std::mem::take(&mut joined.group);
+        if let Some(first) = first {
+            joined.groups.insert(first, group);
+        }
+        result
     }
 
     /// Fills the group at work with the bodies and joints of an island.
@@ -172,6 +190,10 @@ impl World {
                 slot_of(group, i);
             }
         }
+        for (place, pair) in scratch.contacts.patches_of(k) {
+            let slots = pair.map(|i| slot_of(group, i as usize));
+            group.patches.push((place, slots));
+        }
         for place in scratch.contacts.joints_of(k) {
             let joint = &joints.values()[place as usize];
             let ends = [0, 1].map(|side| {
@@ -192,13 +214,14 @@ impl World {
         group.joints.begin(&group.poses, &group.twists);
     }
 
-    /// Lets a method work on a group; returns what it books.
-    fn run_joined(
+    /// Lets a method work on a group, its joints by themselves or together with what touches; returns what it books.
+    pub(in crate::world) fn run_joined(
         &mut self,
-        run: impl FnOnce(&mut System<'_>, &mut Motion<'_>, &mut Scratch) -> Result<()>,
+        touching: bool,
+        run: impl FnOnce(&mut System<'_>, &mut Motion<'_>, (&mut Scratch, &Contacts)) -> Result<()>,
     ) -> Result<Ledger> {
         let Self { state, scratch, fields, plan, report, .. } = self;
-        let State { bodies, settings, ledger, .. } = state;
+        let State { bodies, settings, ledger, contacts, .. } = state;
         let Group { members, poses, twists, masses, steady, joints, .. } =
             &mut scratch.joined.group;
         let forces = Forces {
@@ -216,15 +239,23 @@ impl World {
             evaluations: 0,
         };
         let mut booked = *ledger;
-        let mut system = System { forces, joints: Some(joints) };
         let mut motion = Motion { poses, twists, ledger: &mut booked };
-        run(&mut system, &mut motion, &mut scratch.methods)?;
+        if touching {
+            let modes = Modes::new(masses, std::mem::take(joints));
+            let mut system = System { forces, joints: None, modes: Some(modes) };
+            let result = run(&mut system, &mut motion, (&mut scratch.methods, contacts));
+            report.evaluations += system.forces.evaluations;
+            *joints = system.modes.map(|modes| modes.joints).unwrap_or_default();
+            return result.map(|()| booked);
+        }
+        let mut system = System { forces, joints: Some(joints), modes: None };
+        run(&mut system, &mut motion, (&mut scratch.methods, contacts))?;
         report.evaluations += system.forces.evaluations;
         Ok(booked)
     }
 
     /// Brings the motion of the group at work, and what its joints do, back to the columns.
-    fn scatter_joined(&mut self, ledger: Ledger) {
+    pub(in crate::world) fn scatter_joined(&mut self, ledger: Ledger) {
         let Self { state, scratch, plan, report, .. } = self;
         let State { bodies, joints, .. } = state;
         let together = plan.as_ref().is_some_and(|plan| plan.together > 0);

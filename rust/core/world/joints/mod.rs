@@ -7,7 +7,7 @@ mod swings;
 
 pub use swings::SpringMotion;
 
-pub(super) use advance::{JoinedScratch, is_smooth};
+pub(super) use advance::{Group as JoinedGroup, JoinedScratch, is_smooth};
 pub(super) use step::{Memory, keep, tie, tied};
 
 use std::mem::discriminant;

@@ -1,0 +1,501 @@
+//! Bodies that touch or meet, moved from event to event to a tolerance.
+//!
+//! Between events every contact keeps its mode (it bears or not, sticks or slides) and the motion is smooth: a parabola where
+//! nothing bears and forces are constant, else DOP853 on accelerations in which the rows of contacts and joints hold
+//! exactly. Events are located on the path: shapes meet (impacts, by the law of impact), a contact lets go, breaks
+//! away, comes to rest. Then modes are chosen anew ([`choose`]). Bounces that have become too low to matter are summed: they end in a
+//! plastic impact, which takes and gives in all what they would have.
+//!
+//! Pfeiffer and Glocker, "Multibody Dynamics with Unilateral Contacts" (1996).
+
+mod arrival;
+mod choose;
+mod dense;
+mod impact;
+mod lcp;
+mod modes;
+mod path;
+mod point;
+mod switch;
+
+pub use arrival::Pair;
+pub use impact::Struck;
+pub use modes::{Contact, Modes, Slip};
+
+use crate::body::ImpactLaw;
+use crate::collision::Frame;
+use crate::error::{Error, Result};
+use crate::math::{Pose, Real, Twist};
+use crate::methods::{
+    Adaptive, Control, Motion, Progress, Scratch, Sink, Span, System, Watch as Asks,
+};
+use choose::{Hint, choose};
+use impact::{Rules, Taken, resolve, stop_sliding};
+use path::{Free, Path};
+use point::Point;
+use switch::{Event, Lookout, Watch};
+
+/// What an island is, and what is asked of its run.
+pub struct Island<'a> {
+    /// What may meet.
+    pub pairs: Vec<Pair<'a>>,
+    /// Law of impact.
+    pub law: ImpactLaw,
+    /// Forces are constant in time, place and velocity.
+    pub constant: bool,
+    /// Some surface is driven: by a body of given motion or as a conveyor.
+    pub driven: bool,
+    /// Sizes of the bodies, for errors (m).
+    pub sizes: Vec<Real>,
+    /// How far each body may get from its start (m).
+    pub reach: Vec<Real>,
+    /// Largest relative error of a step.
+    pub tolerance: Real,
+}
+
+/// What a run took, and how it ended.
+#[derive(Debug, Default)]
+pub struct Outcome {
+    /// Steps and errors.
+    pub progress: Progress,
+    /// Impacts.
+    pub struck: Vec<Struck>,
+    /// Events located.
+    pub events: u64,
+    /// Bodies (slots) that got farther than was looked, and how far (m); the run ended there.
+    pub thrown: Vec<(u32, Real)>,
+    /// Why events could not go on; the run ended there.
+    pub gave_up: Option<&'static str>,
+}
+
+/// Events of one run.
+const MOST_EVENTS: u64 = 1_000_000;
+
+/// Events without time between them.
+const MOST_AT_ONCE: u32 = 200;
+
+/// An overlap beyond this part of the width is none that has come of rounding.
+const DEEP: Real = 1e-7;
+
+/// Bounces lower than this part of the tolerated error are over.
+const LOW: Real = 0.1;
+
+/// Moves an island through a span; `sink` takes the states at `samples` (s from the start of the span, increasing).
+///
+/// # Errors
+/// Those of forces, of [`Adaptive::run`], and of `watch`.
+pub fn run(
+    island: &Island<'_>,
+    system: &mut System<'_>,
+    motion: &mut Motion<'_>,
+    (span, samples): (Span, &[Real]),
+    (scratch, sink, watch): (&mut Scratch, &mut Sink<'_>, &mut Asks<'_>),
+) -> Result<Outcome> {
+    let start: Vec<Pose> = motion.poses.to_vec();
+    let mut run = Run {
+        island,
+        system,
+        motion,
+        span,
+        samples,
+        next: 0,
+        passed: 0.0,
+        start,
+        hints: Vec::new(),
+        met: Vec::new(),
+        outcome: Outcome {
+            progress: Progress { smallest: Real::INFINITY, ..Progress::default() },
+            ..Outcome::default()
+        },
+    };
+    let mut at_once = 0;
+    while run.goes_on() {
+        watch().map_err(|source| Error::Interrupted { source })?;
+        let before = run.passed;
+        run.settle_event()?;
+        if run.goes_on() {
+            run.leg((&mut *scratch, &mut *sink, &mut *watch))?;
+        }
+        at_once = if run.passed > before { 0 } else { at_once + 1 };
+        if at_once > MOST_AT_ONCE || run.outcome.events > MOST_EVENTS {
+            run.outcome.gave_up.get_or_insert("events follow one another without end");
+        }
+    }
+    run.hand_out_rest(sink);
+    Ok(run.outcome)
+}
+
+struct Run<'r, 'a, 's, 'm> {
+    island: &'r Island<'a>,
+    system: &'r mut System<'s>,
+    motion: &'r mut Motion<'m>,
+    span: Span,
+    samples: &'r [Real],
+    /// The next sample.
+    next: usize,
+    /// Time since the start of the span (s).
+    passed: Real,
+    start: Vec<Pose>,
+    /// What the last event found out.
+    hints: Vec<Hint>,
+    /// Points that have just met.
+    met: Vec<(u32, Option<Point>)>,
+    outcome: Outcome,
+}
+
+impl Run<'_, '_, '_, '_> {
+    fn goes_on(&self) -> bool {
+        self.passed < self.span.duration
+            && self.outcome.thrown.is_empty()
+            && self.outcome.gave_up.is_none()
+    }
+
+    fn time(&self) -> Real {
+        self.span.start + self.passed
+    }
+
+    /// Accelerations in the present modes.
+    fn accelerations(&mut self) -> Result<Vec<Twist>> {
+        let mut out = vec![Twist::ZERO; self.motion.poses.len()];
+        let time = self.time();
+        self.system.accelerate(time, self.motion.poses, self.motion.twists, &mut out)?;
+        Ok(out)
+    }
+
+    /// Accelerations by forces alone.
+    fn free_accelerations(&mut self) -> Result<Vec<Twist>> {
+        let modes = self.system.modes.take();
+        let free = self.accelerations();
+        self.system.modes = modes;
+        free
+    }
+
+    /// Impacts of what meets, and modes of what touches then.
+    fn settle_event(&mut self) -> Result<()> {
+        const JAMS: u32 = 8;
+        let accelerations = self.accelerations()?;
+        let Some(contacts) = self.contacts() else { return Ok(()) };
+        let free = self.free_accelerations()?;
+        let Self { island, system, motion, outcome, .. } = self;
+        let Some(modes) = &mut system.modes else { return Ok(()) };
+        modes.contacts = contacts;
+        let speed = |contact: &Contact, twists: &[Twist]| still(island, contact, twists, &free);
+        let before = motion.twists.to_vec();
+        let mut taken = Taken::default();
+        for jam in 0.. {
+            let now = motion.twists.to_vec();
+            let (settled, quiet) = (
+                |c: &Contact, u: Real, a: Real| is_low(island, c, u, a),
+                |c: &Contact| speed(c, &now),
+            );
+            let rules = Rules { law: island.law, still: &quiet, settled: &settled };
+            let impacts = resolve(modes, motion.poses, motion.twists, &accelerations, &rules);
+            taken.struck.extend(impacts.struck);
+            taken.dissipated += impacts.dissipated;
+            let now = motion.twists.to_vec();
+            let quiet = |contact: &Contact| speed(contact, &now);
+            let state = (&*motion.poses, &now[..]);
+            if choose(modes, state, &free, (&self.hints, &quiet)) {
+                break;
+            }
+            let jams = stop_sliding(modes, motion.poses, motion.twists, (&quiet, &mut taken));
+            if !jams || jam == JAMS {
+                outcome.gave_up = Some("no modes of the contacts fit the forces");
+                return Ok(());
+            }
+        }
+        let mass = &system.forces.masses;
+        let energy = |twists: &[Twist]| -> Real {
+            mass.iter().zip(twists).map(|(m, v)| m.kinetic_energy(v)).sum()
+        };
+        motion.ledger.dissipated += taken.dissipated;
+        if island.driven {
+            motion.ledger.work += energy(motion.twists) - energy(&before) + taken.dissipated;
+        }
+        let time = self.span.start + self.passed;
+        outcome.struck.extend(taken.struck.into_iter().map(|hit| Struck { time, ..hit }));
+        self.hints.clear();
+        self.met.clear();
+        Ok(())
+    }
+
+    /// What touches now; none, and a reason noted, where shapes overlap by more than rounding.
+    fn contacts(&mut self) -> Option<Vec<Contact>> {
+        let mut contacts = Vec::new();
+        for (k, pair) in self.island.pairs.iter().enumerate() {
+            let frames = pair.slots.map(|slot| Frame::of(&self.motion.poses[slot as usize]));
+            let bodies = [0, 1].map(|side| (pair.colliders[side], &frames[side]));
+            let just_met = self.met.iter().any(|(met, _)| *met as usize == k);
+            let margin = pair.touching(&frames)
+                + if just_met { self.island.tolerance.min(1e-3) * pair.width } else { 0.0 };
+            for manifold in pair.manifolds(&frames, margin) {
+                let mut points = [Point::of(&manifold, 0, bodies); 2];
+                let mut count = 0;
+                for p in 0..manifold.count {
+                    let point = Point::of(&manifold, p, bodies);
+                    let gap = point.seen([&frames[0], &frames[1]]).gap;
+                    if gap < -self.deep() * pair.width {
+                        self.outcome.gave_up = Some("shapes overlap");
+                        return None;
+                    }
+                    let met = self.met.iter().any(|(met, features)| {
+                        *met as usize == k
+                            && features.is_none_or(|features| features.feature == point.feature)
+                    });
+                    if met || gap <= pair.touching(&frames) {
+                        points[count] = point;
+                        count += 1;
+                    }
+                }
+                if count > 0 {
+                    contacts.push(Contact {
+                        pair: k as u32,
+                        slots: pair.slots,
+                        points,
+                        count,
+                        on: [false; 2],
+                        slip: Slip::Sticks,
+                        touch: pair.touch,
+                        force: [0.0; 3],
+                    });
+                }
+            }
+        }
+        Some(contacts)
+    }
+
+    fn deep(&self) -> Real {
+        DEEP.max(4.0 * self.island.tolerance)
+    }
+
+    /// Motion to the next event.
+    fn leg(&mut self, handlers: (&mut Scratch, &mut Sink<'_>, &mut Asks<'_>)) -> Result<()> {
+        let (bears, joined) = self.system.modes.as_ref().map_or((false, false), |modes| {
+            (modes.bears(), modes.joints.bodies() > 0 && modes.joints.any())
+        });
+        let accelerations = self.accelerations()?;
+        let watch = self.watch(&accelerations);
+        if self.island.constant && !bears && !joined {
+            self.fly(&accelerations, &watch, handlers.1);
+        } else if self.island.constant && self.rests(&accelerations) {
+            self.passed = self.span.duration;
+        } else {
+            self.integrate(&watch, handlers)?;
+        }
+        self.note_thrown();
+        Ok(())
+    }
+
+    /// Whether nothing moves, nor will.
+    fn rests(&self, accelerations: &[Twist]) -> bool {
+        self.motion.twists.iter().chain(accelerations).all(|twist| *twist == Twist::ZERO)
+    }
+
+    /// How each pair is watched.
+    fn watch(&self, accelerations: &[Twist]) -> Vec<Watch> {
+        let path = Free { poses: self.motion.poses, twists: self.motion.twists, accelerations };
+        let Some(modes) = &self.system.modes else { return Vec::new() };
+        let of_pair = |(k, pair): (usize, &Pair<'_>)| {
+            let own = modes.contacts.iter().filter(|contact| contact.pair as usize == k);
+            let mut bearing = Vec::new();
+            let mut points = Vec::new();
+            let mut stays = false;
+            for contact in own {
+                let frames = modes.frames(contact.slots);
+                for p in 0..contact.count {
+                    points.push(contact.points[p]);
+                    if contact.on[p] {
+                        bearing.push(contact.points[p].feature);
+                    }
+                    let seen = contact.seen(p, frames);
+                    let twists = contact.slots.map(|slot| &self.motion.twists[slot as usize]);
+                    let rate = seen.normal.dot(&seen.velocity(twists));
+                    let bends = contact.slots.map(|slot| &accelerations[slot as usize]);
+                    let bend = seen.normal.dot(&seen.velocity(bends))
+                        + contact.points[p].bias(&seen, twists)[0];
+                    let quiet = still(self.island, contact, self.motion.twists, accelerations);
+                    stays |= rate <= quiet && bend <= 1e-9 * accelerations_of(bends);
+                }
+            }
+            if points.is_empty() {
+                Watch::Apart(0.0)
+            } else if bearing.is_empty() && !stays {
+                Watch::Apart(pair.clear(&path, 0.0, &points, self.span.duration - self.passed))
+            } else {
+                Watch::Touches(bearing)
+            }
+        };
+        self.island.pairs.iter().enumerate().map(of_pair).collect()
+    }
+
+    /// Free flight under constant forces.
+    fn fly(&mut self, accelerations: &[Twist], watch: &[Watch], sink: &mut Sink<'_>) {
+        let (poses, twists) = (self.motion.poses.to_vec(), self.motion.twists.to_vec());
+        let path = Free { poses: &poses, twists: &twists, accelerations };
+        let rest = self.span.duration - self.passed;
+        let mut first: Option<(Real, usize, Option<Point>)> = None;
+        for (k, (pair, watch)) in self.island.pairs.iter().zip(watch).enumerate() {
+            let to = first.as_ref().map_or(rest, |(time, ..)| *time);
+            let met = match watch {
+                Watch::Apart(clear) => pair.first_meeting(&path, [*clear, to]),
+                Watch::Touches(bearing) => pair.first_feature(&path, [0.0, to], bearing),
+            };
+            if let Some(met) = met.filter(|met| met.time < to) {
+                first = Some((met.time, k, met.point));
+            }
+        }
+        let h = first.as_ref().map_or(rest, |(time, ..)| *time);
+        self.sample(&path, h, sink);
+        for (slot, start) in poses.iter().enumerate() {
+            let (pose, twist) = path.body(slot as u32, h);
+            self.book_flight(slot, &pose, start);
+            (self.motion.poses[slot], self.motion.twists[slot]) = (pose, twist);
+        }
+        self.outcome.progress.steps += 1;
+        match first {
+            None => self.passed = self.span.duration,
+            Some((_, pair, point)) => {
+                self.passed += h;
+                self.outcome.events += 1;
+                self.met.push((pair as u32, point));
+            }
+        }
+    }
+
+    /// Work of steady forces on a body that flew.
+    fn book_flight(&mut self, slot: usize, to: &Pose, from: &Pose) {
+        if let Some(steady) = self.system.forces.steady.get(slot) {
+            let way = Twist::new(to.position - from.position, to.angle - from.angle);
+            let mass = &self.system.forces.masses[slot];
+            self.motion.ledger.work += crate::forces::power(steady, &way, mass);
+        }
+    }
+
+    /// Hands out the samples within h from now.
+    fn sample(&mut self, path: &dyn Path, h: Real, sink: &mut Sink<'_>) {
+        let bodies = self.motion.poses.len() as u32;
+        while let Some(&at) = self.samples.get(self.next).filter(|at| **at <= self.passed + h) {
+            let states = (0..bodies).map(|slot| path.body(slot, at - self.passed));
+            let (poses, twists): (Vec<Pose>, Vec<Twist>) = states.unzip();
+            sink(self.next, &poses, &twists);
+            self.next += 1;
+        }
+    }
+
+    /// Samples up to the end, where nothing moves any more, or by rounding.
+    fn hand_out_rest(&mut self, sink: &mut Sink<'_>) {
+        while self.next < self.samples.len() {
+            sink(self.next, self.motion.poses, self.motion.twists);
+            self.next += 1;
+        }
+    }
+
+    /// DOP853 in the present modes.
+    fn integrate(
+        &mut self,
+        watch: &[Watch],
+        (scratch, sink, asks): (&mut Scratch, &mut Sink<'_>, &mut Asks<'_>),
+    ) -> Result<()> {
+        let left = self.samples[self.next..].iter().map(|at| at - self.passed);
+        let samples: Vec<Real> = left.collect();
+        let first = self.next;
+        let mut shifted =
+            |k: usize, poses: &[Pose], twists: &[Twist]| sink(first + k, poses, twists);
+        let sizes = &self.island.sizes;
+        let control =
+            Control { tolerance: self.island.tolerance, sizes: &|i| sizes[i], samples: &samples };
+        let duration = self.span.duration - self.passed;
+        let span = Span { start: self.time(), end: self.span.end, duration, substeps: 1 };
+        let mut lookout = Lookout::new(&self.island.pairs, watch);
+        let adaptive = Adaptive::new(&control, self.motion, span).guarded(&mut lookout);
+        let result = adaptive.run_on(self.system, self.motion, scratch, (&mut shifted, asks));
+        let (progress, stop) = match result {
+            Ok(ended) => ended,
+            Err(Error::Tolerance { .. }) => {
+                self.outcome.gave_up = Some("forces of the contacts grow without end");
+                return Ok(());
+            }
+            Err(error) => return Err(error),
+        };
+        let event = lookout.event.filter(|_| stop.early);
+        self.add(&progress);
+        self.next += stop.samples;
+        self.passed = if stop.early { self.passed + stop.passed } else { self.span.duration };
+        if let Some(event) = event {
+            self.take(event);
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, progress: &Progress) {
+        let sum = &mut self.outcome.progress;
+        sum.steps += progress.steps;
+        sum.rejected += progress.rejected;
+        sum.smallest = sum.smallest.min(progress.smallest);
+        sum.estimate += progress.estimate;
+    }
+
+    /// Keeps what an event says.
+    fn take(&mut self, event: Event) {
+        self.outcome.events += 1;
+        let Some(modes) = &self.system.modes else { return };
+        let name = |k: usize, p: usize| {
+            let contact = &modes.contacts[k];
+            (contact.pair, contact.points[p].feature)
+        };
+        match event {
+            Event::Meets(pair, point) => self.met.push((pair as u32, point)),
+            Event::LetsGo(k, p) => {
+                let (pair, feature) = name(k, p);
+                self.hints.push(Hint::LetsGo(pair, feature));
+            }
+            Event::Breaks(k) => {
+                let (pair, feature) = name(k, 0);
+                // Friction holds against the way it goes.
+                let sigma = -modes.contacts[k].force[2].signum();
+                self.hints.push(Hint::Breaks(pair, feature, sigma));
+            }
+            Event::Stops(k) => {
+                let (pair, feature) = name(k, 0);
+                self.hints.push(Hint::Stopped(pair, feature));
+            }
+            Event::Leaves(..) => {}
+        }
+    }
+
+    /// Notes which bodies got farther than was looked.
+    fn note_thrown(&mut self) {
+        let bodies = self.motion.poses.iter().zip(&self.start).zip(&self.island.reach).enumerate();
+        for (slot, ((now, start), reach)) in bodies {
+            let way = (now.position - start.position).norm();
+            if way > *reach {
+                self.outcome.thrown.push((slot as u32, way));
+            }
+        }
+    }
+}
+
+/// Speeds (m/s) of a contact below which it does not move: rounding of what its bodies do, and of what forces do to them.
+fn still(island: &Island<'_>, contact: &Contact, twists: &[Twist], forces: &[Twist]) -> Real {
+    let pair = &island.pairs[contact.pair as usize];
+    let of = |side: usize| {
+        let (slot, reach) = (contact.slots[side] as usize, pair.colliders[side].reach);
+        let speed = twists[slot].linear.norm() + reach * twists[slot].angular.abs();
+        let pull = forces[slot].linear.norm() + reach * forces[slot].angular.abs();
+        (speed, pull)
+    };
+    let [a, b] = [of(0), of(1)];
+    1e-12 * (a.0 + b.0) + 1e-13 * ((a.1 + b.1) * pair.width).sqrt()
+}
+
+fn accelerations_of([a, b]: [&Twist; 2]) -> Real {
+    a.linear.norm() + b.linear.norm() + a.angular.abs() + b.angular.abs()
+}
+
+/// Whether what leaves at a speed under a pull comes no higher than matters.
+fn is_low(island: &Island<'_>, contact: &Contact, speed: Real, pull: Real) -> bool {
+    let size = contact.slots.map(|slot| island.sizes[slot as usize]);
+    let width = island.pairs[contact.pair as usize].width;
+    let size = size[0].min(size[1]).min(width).max(Real::MIN_POSITIVE);
+    speed * speed <= 2.0 * pull * LOW * island.tolerance * size
+}

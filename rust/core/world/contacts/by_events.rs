@@ -1,0 +1,242 @@
+//! The stage that moves what touches or may to a tolerance: each small group from event to event.
+
+use super::events::ContactEvent;
+use super::near::Kind;
+use super::{Contacts, FAR, MARGIN};
+use crate::body::Bodies;
+use crate::error::Result;
+use crate::forces::has_resistance;
+use crate::math::{Pose, Real, Twist, Vec2};
+use crate::methods::events::{Island, Outcome, Pair, Struck, run};
+use crate::methods::{Sink, Span, Watch};
+use crate::world::joints::{JoinedGroup, is_smooth};
+use crate::world::{Trajectory, World};
+
+/// Groups that are moved from event to event in a stretch, and what came of it.
+#[derive(Clone, Debug, Default)]
+pub(in crate::world) struct ByEvents {
+    /// Bodies that got farther than was looked, and how far (m).
+    pub thrown: Vec<(u32, Real)>,
+    /// When, and why, events could not go on.
+    pub gave_up: Option<(Real, &'static str)>,
+    /// Events located.
+    pub events: u64,
+}
+
+/// Bodies of a group that is moved from event to event: beyond, the contact step is cheaper.
+const MOST_BODIES: usize = 24;
+
+/// Pairs of one.
+const MOST_PAIRS: usize = 300;
+
+impl World {
+    /// Bodies that give way in the largest group that is not left to a method.
+    pub(in crate::world) fn largest_group(&self) -> usize {
+        let scratch = &self.scratch.contacts;
+        (0..scratch.groups())
+            .filter(|k| !scratch.leaves(*k))
+            .map(|k| self.bodies_of(k).len())
+            .max()
+            .unwrap_or(0)
+    }
+
+    fn bodies_of(&self, k: usize) -> Vec<u32> {
+        let gives_way = |i: &u32| self.state.bodies.masses[*i as usize].is_free();
+        let mut bodies: Vec<u32> =
+            self.scratch.contacts.links_of(k).flatten().filter(gives_way).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        bodies
+    }
+
+    /// Whether all groups that are not left to a method can be moved from event to event: small ones, whose joints have no
+    /// bounds, and nothing in them that the modes do not know.
+    pub(in crate::world) fn suits_events(&self) -> bool {
+        let scratch = &self.scratch.contacts;
+        let (contacts, bodies) = (&self.state.contacts, &self.state.bodies);
+        let plain = |place: u32| {
+            let near = &contacts.near[contacts.patches[place as usize].near as usize];
+            near.kind == Kind::Solid && near.touch.rolling_resistance == 0.0
+        };
+        scratch.answers.is_empty()
+            && (0..scratch.groups()).filter(|k| !scratch.leaves(*k)).all(|k| {
+                let joints = self.state.joints.values();
+                self.bodies_of(k).len() <= MOST_BODIES
+                    && scratch.links_of(k).count() <= MOST_PAIRS
+                    && scratch.patches_of(k).all(|(place, _)| plain(place))
+                    && scratch.joints_of(k).all(|j| is_smooth(bodies, &joints[j as usize]))
+            })
+    }
+
+    /// Moves every such group through a span, where that is asked for; samples go to the trajectory. Returns the largest
+    /// estimate of a group's error.
+    pub(in crate::world) fn advance_by_events(
+        &mut self,
+        span: Span,
+        (tolerance, samples): (Real, &[Real]),
+        (first, trajectory): (usize, &mut Trajectory),
+        watch: &mut Watch<'_>,
+    ) -> Result<Real> {
+        let mut worst: Real = 0.0;
+        if self.scratch.contacts.by_events.is_none() {
+            return Ok(worst);
+        }
+        for k in 0..self.scratch.contacts.groups() {
+            if self.scratch.contacts.leaves(k) {
+                continue;
+            }
+            self.with_island(k, |world| {
+                let members = world.scratch.joined.group.members.clone();
+                let mut sink = |sample: usize, poses: &[Pose], twists: &[Twist]| {
+                    for (slot, body) in members.iter().enumerate() {
+                        let (pose, twist) = (&poses[slot..=slot], &twists[slot..=slot]);
+                        trajectory.write(first + sample, *body as usize, pose, twist);
+                    }
+                };
+                let handlers: (&mut Sink<'_>, _) = (&mut sink, &mut *watch);
+                let outcome = world.run_group(span, (tolerance, samples), handlers)?;
+                worst = worst.max(outcome.progress.estimate);
+                world.book_events(&outcome, &members);
+                Ok(())
+            })?;
+        }
+        Ok(worst)
+    }
+
+    /// Runs the group at work and brings its motion back.
+    fn run_group(
+        &mut self,
+        span: Span,
+        (tolerance, samples): (Real, &[Real]),
+        (sink, watch): (&mut Sink<'_>, &mut Watch<'_>),
+    ) -> Result<Outcome> {
+        let plan = self.plan.as_ref();
+        let together = plan.is_some_and(|plan| plan.together > 0);
+        let resists = plan.is_some_and(|plan| plan.resistance);
+        let (air, law) = (self.state.settings.air, self.state.settings.impact_law);
+        let (bodies, group) = (&self.state.bodies, &self.scratch.joined.group);
+        let resisted = |i: &u32| resists && has_resistance(&bodies.infos[*i as usize], air);
+        let constant = !together && !group.members.iter().any(resisted);
+        let spread = |i: &u32| self.state.contacts.spread_of([*i as usize]);
+        let reach: Vec<Real> = group.members.iter().map(spread).collect();
+        let sizes = group.sizes.clone();
+        let patches = group.patches.clone();
+        let given =
+            |slot: usize| !group.masses[slot].is_free() && group.twists[slot] != Twist::ZERO;
+        let driven = (0..group.masses.len()).any(given);
+        let mut outcome = Outcome::default();
+        let ledger = self.run_joined(true, |system, motion, (scratch, contacts)| {
+            let pairs = contacts.pairs_of(&patches);
+            let driven = driven || pairs.iter().any(|pair| pair.touch.tangent_speed != 0.0);
+            let island = Island { pairs, law, constant, driven, sizes, reach, tolerance };
+            outcome = run(&island, system, motion, (span, samples), (scratch, sink, watch))?;
+            Ok(())
+        })?;
+        self.scatter_joined(ledger);
+        Ok(outcome)
+    }
+
+    fn book_events(&mut self, outcome: &Outcome, members: &[u32]) {
+        let JoinedGroup { patches, .. } = &self.scratch.joined.group;
+        let contacts = &self.state.contacts;
+        // As the island's pairs are numbered.
+        let nears = contacts.nears_of(patches);
+        let hit =
+            |hit: &Struck| contacts.hit_of((nears[hit.pair as usize], hit), &self.state.bodies);
+        self.events.hit.extend(outcome.struck.iter().map(hit));
+        self.report.book_progress(&outcome.progress);
+        self.report.impacts += outcome.struck.len() as u64;
+        let Some(booked) = &mut self.scratch.contacts.by_events else { return };
+        booked.events += outcome.events;
+        let thrown = outcome.thrown.iter();
+        booked.thrown.extend(thrown.map(|(slot, way)| (members[*slot as usize], *way)));
+        if let Some(why) = outcome.gave_up {
+            booked.gave_up.get_or_insert((self.state.clock.now, why));
+        }
+    }
+}
+
+impl Contacts {
+    /// Pairs of patches, each once, in order.
+    fn nears_of(&self, patches: &[(u32, [u32; 2])]) -> Vec<u32> {
+        let near = |(place, _): &(u32, _)| self.patches[*place as usize].near;
+        let mut nears: Vec<u32> = patches.iter().map(near).collect();
+        nears.sort_unstable();
+        nears.dedup();
+        nears
+    }
+
+    /// The same as what may meet.
+    fn pairs_of(&self, patches: &[(u32, [u32; 2])]) -> Vec<Pair<'_>> {
+        let nears = self.nears_of(patches);
+        let pair = |near: &u32| {
+            let of = |(place, _): &&(u32, [u32; 2])| self.patches[*place as usize].near == *near;
+            let slots = patches.iter().find(of).map(|(_, slots)| *slots)?;
+            let near = &self.near[*near as usize];
+            let colliders = near.proxies.map(|proxy| &self.entries[proxy.0 as usize].collider);
+            let width = colliders[0].width.min(colliders[1].width);
+            Some(Pair { slots, colliders, touch: near.touch, width })
+        };
+        nears.iter().filter_map(pair).collect()
+    }
+
+    fn hit_of(&self, (near, hit): (u32, &Struck), bodies: &Bodies) -> ContactEvent {
+        let near = &self.near[near as usize];
+        let (pair, flipped) = self.shapes_of(near, bodies.handles());
+        ContactEvent {
+            time: hit.time,
+            bodies: pair.bodies,
+            parts: pair.parts.map(|part| part as usize),
+            point: Some(hit.point),
+            normal: Some(if flipped { -hit.normal } else { hit.normal }),
+            approach_speed: hit.approach,
+            impulse: hit.impulse,
+        }
+    }
+
+    /// How far (m) each body that can touch others may get in a time, at first: as fast as it is under the forces on it, and a part of
+    /// its size.
+    pub(in crate::world) fn spread_by(
+        &mut self,
+        dt: Real,
+        bodies: &Bodies,
+        pull: impl Fn(usize) -> Vec2,
+    ) {
+        let spread = |i: usize| {
+            let colliders = self.of_body[i].iter().map(|p| &self.entries[p.0 as usize].collider);
+            let sizes = colliders.map(|collider| (collider.width, collider.reach));
+            let (width, reach) = sizes.fold((0.0, 0.0), |(w, r): (Real, Real), (width, reach)| {
+                (w.max(width), r.max(reach))
+            });
+            if !bodies.masses[i].is_free() {
+                return bodies.twists[i].linear.norm() * dt;
+            }
+            let twist = &bodies.twists[i];
+            let turn = (twist.angular.abs() * dt).min(2.0);
+            let way = twist.linear.norm() * dt + 0.5 * pull(i).norm() * dt * dt + turn * reach;
+            let way = 1.1 * way + 0.01 * width;
+            // Boxes have a margin for short ways, and are grown all around for those that count as far.
+            if way > 0.5 * MARGIN * width { way.max(1.01 * FAR * width) } else { way }
+        };
+        self.spread = (0..self.of_body.len()).map(spread).collect();
+    }
+
+    /// The shortest time (s) worth while: in which no body gets farther than a part of its size.
+    pub(in crate::world) fn short_stretch(
+        &self,
+        bodies: &Bodies,
+        pull: impl Fn(usize) -> Vec2,
+    ) -> Real {
+        let time = |i: usize| {
+            let widths = self.of_body[i].iter().map(|p| self.entries[p.0 as usize].collider.width);
+            let way = 0.1 * widths.fold(Real::INFINITY, Real::min);
+            let (speed, pull) = (bodies.twists[i].linear.norm(), pull(i).norm());
+            let root = (speed * speed + 2.0 * pull * way).sqrt();
+            if speed + root > 0.0 { 2.0 * way / (speed + root) } else { Real::INFINITY }
+        };
+        (0..self.of_body.len())
+            .filter(|i| !self.of_body[*i].is_empty() && bodies.masses[*i].is_free())
+            .map(time)
+            .fold(Real::INFINITY, Real::min)
+    }
+}
