@@ -66,7 +66,7 @@ fn resist_rolling(block: &mut Block, [a, b]: [&mut Velocity; 2]) {
     block.rolling = new;
 }
 
-fn turn([a, b]: [&mut Velocity; 2], impulse: Real) {
+pub(super) fn turn([a, b]: [&mut Velocity; 2], impulse: Real) {
     a.twist.angular -= a.inverse_inertia * impulse;
     b.twist.angular += b.inverse_inertia * impulse;
 }

@@ -37,6 +37,7 @@ use crate::forces::{Schedule, ScheduleHandle};
 use crate::joint::Joint;
 use crate::math::{Real, Vec2, vec2};
 use crate::methods::{self, Method, Scratch};
+use crate::solvers::Solver;
 
 /// What holds for the whole world.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -57,6 +58,8 @@ pub struct Settings {
     pub impact_law: ImpactLaw,
     /// Most sweeps over the rows of contacts a substep; fewer where they settle sooner.
     pub sweeps: u32,
+    /// How the rows of contacts and joints are solved.
+    pub solver: Solver,
     /// Bodies that have come to rest are left out of the work until something wakes them.
     pub sleeping: bool,
     /// Each stage of a step is timed. Costs about as much as the step of one free body.
@@ -74,6 +77,7 @@ impl Default for Settings {
             mixing: Mixing::default(),
             impact_law: ImpactLaw::Newton,
             sweeps: 8,
+            solver: Solver::default(),
             sleeping: false,
             timing: false,
         }
@@ -251,6 +255,12 @@ impl World {
         }
         self.state.settings.sweeps = sweeps;
         Ok(())
+    }
+
+    /// Chooses how the rows of contacts and joints are solved.
+    pub fn set_solver(&mut self, solver: Solver) {
+        self.state.settings.solver = solver;
+        self.wake_all();
     }
 
     /// Chooses the method of fixed steps by name; [`methods::REGISTRY`] lists them.

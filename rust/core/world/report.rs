@@ -34,6 +34,8 @@ pub struct StepReport {
     pub solves: u64,
     /// Most parts that a substep was divided into because of what joints bear; 256 may not have been enough.
     pub parts: u32,
+    /// Factorisations of the rows of contacts and joints together, summed over islands and substeps.
+    pub factorisations: u64,
     /// Impacts resolved.
     pub impacts: u64,
     /// Events located in time by runs to a tolerance: shapes that met, contacts that let go, broke away or came to rest.
@@ -58,6 +60,7 @@ impl Default for StepReport {
             sweeps: 0,
             solves: 0,
             parts: 1,
+            factorisations: 0,
             impacts: 0,
             events: 0,
             residual: 0.0,

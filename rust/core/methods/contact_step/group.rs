@@ -2,6 +2,7 @@
 
 use super::impacts::Watch;
 use super::joints::Ties;
+use super::newton::Together;
 use crate::collision::Manifold;
 use crate::constraints::contact::Block;
 use crate::constraints::{Place, Velocity};
@@ -167,6 +168,8 @@ pub struct Group {
     pub ties: Ties,
     /// Some surface is driven: a kinematic body or a conveyor.
     pub driven: bool,
+    /// Solves all rows at once.
+    pub together: Together,
     /// Length of the substep (s).
     pub(super) h: Real,
     /// World time in the middle of the substep (s).

@@ -12,6 +12,7 @@ mod group;
 mod impacts;
 pub mod joints;
 pub(in crate::methods) mod law;
+pub mod newton;
 mod path;
 mod project;
 mod settle;
@@ -24,6 +25,7 @@ use crate::error::Result;
 use crate::forces::Ledger;
 use crate::math::{Real, Twist};
 use crate::methods::Span;
+use crate::solvers::Solver;
 use crate::solvers::sweep::{self, Budget};
 pub use group::{Group, Hit, Link, Mass, Watched};
 pub use joints::Tie;
@@ -63,6 +65,8 @@ pub struct Settings {
     pub law: ImpactLaw,
     /// Most sweeps over the rows a substep.
     pub sweeps: u32,
+    /// How rows are solved.
+    pub solver: Solver,
 }
 
 /// What a run took.
@@ -72,6 +76,8 @@ pub struct Outcome {
     pub ledger: Ledger,
     /// Sweeps in all.
     pub sweeps: u64,
+    /// Factorisations of the rows of a group.
+    pub factorisations: u64,
     /// Impacts resolved.
     pub impacts: u64,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
@@ -198,7 +204,7 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
     let most =
         settings.sweeps.max(SMALL / (group.blocks.len() as u32).max(1)).min(5 * settings.sweeps);
     let budget = Budget { tolerance: CALM * fastest, most };
-    let mut work = settle::settle(group, (h, budget), outcome);
+    let mut work = settle::settle(group, (h, budget), settings.solver, outcome);
     if !group.ties.is_empty() {
         work.gain -= joints::book(group, h, &mut outcome.ledger);
     } else if work.gain > work.rounding {

@@ -1,14 +1,18 @@
 //! Rows swept until they settle and give no energy.
 
 use super::group::RowWork;
-use super::{Group, Outcome, joints, project};
+use super::{Group, Outcome, joints, newton, project};
 use crate::constraints::Velocity;
 use crate::constraints::contact::Block;
 use crate::math::{Real, Twist};
+use crate::solvers::Solver;
 use crate::solvers::sweep::{self, Budget};
 
 /// Times that the budget of sweeps is granted again.
 const MOST_ROUNDS: u32 = 20;
+
+/// Rounds in which all rows may be solved at once: before targets are limited, and after.
+const SOLVED: u32 = 2;
 
 /// Energy, as a part of that of the change of velocities, that is taken back by weakening all rows alike.
 const LITTLE: Real = 1e-3;
@@ -16,11 +20,20 @@ const LITTLE: Real = 1e-3;
 /// Sweeps until the velocities settle or the budget is used up, and on while what they lack would bring bodies farther into one
 /// another than a pass of [`project`] brings them out. Where the rows give more than a little energy, what they ask for is
 /// limited to what gives none, and they are swept on as well.
-pub fn settle(group: &mut Group, (h, budget): (Real, Budget), outcome: &mut Outcome) -> RowWork {
+pub fn settle(
+    group: &mut Group,
+    (h, budget): (Real, Budget),
+    solver: Solver,
+    outcome: &mut Outcome,
+) -> RowWork {
     let width = group.links.iter().map(|link| link.width).fold(0.0, Real::max);
     let mut limited = false;
     for round in 0.. {
-        let (sweeps, residual) = sweep(group, budget);
+        let (sweeps, residual) = if solver == Solver::Newton && round < SOLVED {
+            solve_all(group, budget, outcome)
+        } else {
+            sweep(group, budget)
+        };
         outcome.sweeps += u64::from(sweeps);
         let work = group.row_work(h);
         let gives = work.gain > LITTLE * work.changed;
@@ -37,6 +50,19 @@ pub fn settle(group: &mut Group, (h, budget): (Real, Budget), outcome: &mut Outc
         }
     }
     unreachable!("the last round returns")
+}
+
+/// All rows at once; where that fails, sweeps go on from the best.
+fn solve_all(group: &mut Group, budget: Budget, outcome: &mut Outcome) -> (u32, Real) {
+    if group.blocks.is_empty() {
+        return sweep(group, budget);
+    }
+    let (sweeps, residual) = newton::solve(group, budget, outcome);
+    if residual <= budget.tolerance {
+        return (sweeps, residual);
+    }
+    let (more, residual) = sweep(group, budget);
+    (sweeps + more, residual)
 }
 
 fn sweep(group: &mut Group, budget: Budget) -> (u32, Real) {

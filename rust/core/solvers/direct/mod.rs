@@ -18,13 +18,16 @@
 //! of it: only the square of 2⁻⁵³/ε remains.
 
 mod block;
+mod bodies;
 mod numeric;
 mod order;
 mod structure;
 #[cfg(test)]
 mod tests;
+mod unsymmetric;
 
 pub use block::{Block, Triple};
+pub use bodies::BodyFactor;
 
 use std::mem;
 

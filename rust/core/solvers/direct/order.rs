@@ -30,6 +30,27 @@ impl Elimination {
     /// be its compliance alone, which may be zero.
     pub(super) fn run(&mut self, bodies: usize, links: &[Link]) {
         self.tie(bodies, links);
+        self.eliminate();
+    }
+
+    /// Eliminates all nodes of a graph that is given by its edges.
+    pub(super) fn run_edges(&mut self, count: usize, edges: impl Iterator<Item = [u32; 2]>) {
+        self.clear(count);
+        for [a, b] in edges.filter(|[a, b]| a != b) {
+            self.neighbours[a as usize].push(b);
+            self.neighbours[b as usize].push(a);
+        }
+        for node in 0..count {
+            let own = &mut self.neighbours[node];
+            own.sort_unstable();
+            own.dedup();
+            self.simplicial[node] = own.len() < 2;
+            self.queue.push(Reverse((own.len(), node as u32)));
+        }
+        self.eliminate();
+    }
+
+    fn eliminate(&mut self) {
         while let Some(Reverse((degree, node))) = self.queue.pop() {
             let k = node as usize;
             if self.done[k] || self.neighbours[k].len() != degree {
@@ -53,8 +74,7 @@ impl Elimination {
         }
     }
 
-    fn tie(&mut self, bodies: usize, links: &[Link]) {
-        let count = bodies + links.len();
+    fn clear(&mut self, count: usize) {
         self.order.clear();
         self.done.clear();
         self.done.resize(count, false);
@@ -62,6 +82,11 @@ impl Elimination {
         self.simplicial.resize(count, false);
         self.neighbours.resize_with(count, Vec::new);
         self.neighbours.iter_mut().for_each(Vec::clear);
+    }
+
+    fn tie(&mut self, bodies: usize, links: &[Link]) {
+        let count = bodies + links.len();
+        self.clear(count);
         for (link, ends) in (bodies as u32..).zip(links) {
             for body in ends.iter().flatten() {
                 let own = &mut self.neighbours[link as usize];

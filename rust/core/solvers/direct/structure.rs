@@ -52,6 +52,22 @@ impl Structure {
         true
     }
 
+    /// Prepares for a graph whose nodes are bodies only.
+    pub(super) fn analyse_edges(&mut self, bodies: usize, edges: impl Iterator<Item = [u32; 2]>) {
+        self.bodies = bodies;
+        self.links.clear();
+        self.places.clear();
+        self.elimination.run_edges(bodies, edges);
+        self.number();
+    }
+
+    /// The block below the diagonal that two different columns share, if it is filled.
+    pub(super) fn shared(&self, a: u32, b: u32) -> Option<usize> {
+        let below = self.below(a.min(b) as usize);
+        let nth = self.rows[below.clone()].binary_search(&a.max(b)).ok()?;
+        Some(below.start + nth)
+    }
+
     /// Number of nodes, hence of columns.
     pub(super) fn len(&self) -> usize {
         self.columns.len()

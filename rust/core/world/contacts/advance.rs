@@ -278,6 +278,7 @@ impl World {
         let settings = contact_step::Settings {
             law: state.settings.impact_law,
             sweeps: state.settings.sweeps,
+            solver: state.settings.solver,
         };
         let resistance = plan.as_ref().is_some_and(|plan| plan.resistance);
         let (bodies, contacts) = (&state.bodies, &state.contacts);
@@ -343,6 +344,7 @@ impl World {
         *ledger += outcome.ledger;
         scratch.contacts.thrown.extend_from_slice(&scratch.contacts.group.thrown);
         report.sweeps += outcome.sweeps;
+        report.factorisations += outcome.factorisations;
         report.impacts += outcome.impacts;
         report.residual = report.residual.max(outcome.residual);
     }

@@ -88,7 +88,7 @@ fn bound_is_set(bound: Real) -> bool {
 }
 
 /// Rounds in which all rows may change, before only the first does.
-const TOGETHER: usize = 8;
+pub const TOGETHER: usize = 8;
 
 /// Rounds that settle the bounds of any joint.
 pub const ROUNDS: usize = 64;
@@ -130,17 +130,7 @@ pub fn solve(ties: &mut Ties, velocities: &mut [Velocity], rounds: usize) -> Rea
 fn prepare(ties: &mut Ties, velocities: &[Velocity]) {
     let Ties { list, rows, nodes, solver, prepared, links, .. } = ties;
     let mut on = prepared.take().unwrap_or_default();
-    let known = on.len() == links.len();
-    on.resize(links.len(), [false; 3]);
-    let mut same = known;
-    for tie in &*list {
-        for k in 0..tie.middle.count {
-            let solved = rows[tie.first_row + k].state == State::Solved;
-            let flag = &mut on[tie.first_node + k / 3][k % 3];
-            same &= *flag == solved;
-            *flag = solved;
-        }
-    }
+    let same = note_solved((list, rows), &mut on, links.len());
     if !same {
         fill(list, nodes, links.len(), |tie, k| {
             let row = &rows[tie.first_row + k];
@@ -149,6 +139,21 @@ fn prepare(ties: &mut Ties, velocities: &[Velocity]) {
         solver.prepare(velocities, links, nodes);
     }
     *prepared = Some(on);
+}
+
+/// Notes which rows are solved; whether they are those that were noted.
+pub fn note_solved((list, rows): (&[Tie], &[Row]), on: &mut Vec<[bool; 3]>, links: usize) -> bool {
+    let mut same = on.len() == links;
+    on.resize(links, [false; 3]);
+    for tie in list {
+        for k in 0..tie.middle.count {
+            let solved = rows[tie.first_row + k].state == State::Solved;
+            let flag = &mut on[tie.first_node + k / 3][k % 3];
+            same &= *flag == solved;
+            *flag = solved;
+        }
+    }
+    same
 }
 
 /// Rows of the links; those for which there is no compliance are off.
@@ -174,11 +179,11 @@ pub fn fill(
 }
 
 /// What is missing: wanted − Jv − Σλ.
-fn missing(row: &Row, now: &joint::Row, twists: [&Twist; 2]) -> Real {
+pub fn missing(row: &Row, now: &joint::Row, twists: [&Twist; 2]) -> Real {
     row.wanted - now.velocity(twists) - row.compliance * row.impulse
 }
 
-fn twists(velocities: &[Velocity], tie: &Tie) -> [Twist; 2] {
+pub fn twists(velocities: &[Velocity], tie: &Tie) -> [Twist; 2] {
     tie.slots.map(|slot| slot.map_or(Twist::ZERO, |slot| velocities[slot as usize].twist))
 }
 
@@ -219,7 +224,7 @@ fn correct(ties: &mut Ties, velocities: &mut [Velocity]) -> Real {
 }
 
 /// Pins rows that left their bounds and lets go those that come back. Whether there was any.
-fn review(ties: &mut Ties, velocities: &mut [Velocity], one_by_one: bool) -> bool {
+pub fn review(ties: &mut Ties, velocities: &mut [Velocity], one_by_one: bool) -> bool {
     let Ties { list, rows, .. } = ties;
     let mut changed = false;
     for tie in &*list {

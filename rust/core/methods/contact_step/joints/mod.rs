@@ -11,8 +11,9 @@ mod impact;
 mod load;
 mod motors;
 mod prepare;
+mod together;
 
-pub use active::{ROUNDS, TURN, solve};
+pub use active::{ROUNDS, Row, TOGETHER, TURN, solve};
 pub use close::close;
 pub use load::{take_loads, turning_rate};
 pub use prepare::prepare;
@@ -25,7 +26,6 @@ use crate::joint::ROWS;
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, cross, vec2};
 use crate::solvers::direct::{self, Link, Triple, on_ground};
 use crate::solvers::links::LinkSolver;
-use active::Row;
 
 /// A joint of a group.
 #[derive(Clone, Debug)]

@@ -1,0 +1,229 @@
+//! All rows of a group solved at once: sweeps find how contacts stand and reviews how joints bear, one sparse solution moves all
+//! rows to where that leads, sweeps look whether it holds.
+//!
+//! A set that is wrong may ask for what no impulses give, and the nearer its rows are to depending on one another, the farther
+//! away the solution. So each solution is a proximal one: rows give way by ε·JM⁻¹Jᵀ of the change of their impulses, ε small where
+//! that goes well and larger where it does not (as Levenberg and Marquardt damp Newton's method). Where the set is right, ε costs
+//! no more than another solution with the same factors.
+
+use super::joints::{self, Row, Ties};
+use super::{Group, Outcome};
+use crate::constraints::Velocity;
+use crate::constraints::contact::Block;
+use crate::math::{Real, Twist};
+use crate::solvers::newton::Newton;
+use crate::solvers::sweep::{self, Budget};
+
+/// What is solved to, in parts of what sweeps are asked for.
+const EXACT: Real = 1e-2;
+
+/// Rounding of velocities, in parts of the fastest.
+const ROUNDING: Real = 1e-14;
+
+/// ε at first. Half of the digits are lost to it in factors of the bodies alone.
+const EPSILON: Real = 1e-8;
+
+/// ε at least.
+const LEAST: Real = 1e-10;
+
+/// Change of ε after a step that goes well, and after one that does not.
+const CHANGE: [Real; 2] = [0.1, 100.0];
+
+/// Where a step went wrong, ε stays this many times above; that falls by the second from step to step.
+const CAREFUL: [Real; 2] = [10.0, 0.7];
+
+/// A step that leaves so many times as much as the best is undone.
+const WORSE: Real = 10.0;
+
+/// Sweeps that are added to those after each step that was undone, and most of them.
+const MORE: [u32; 2] = [3, 20];
+
+/// Steps that are undone before what satisfies sweeps is enough.
+const PATIENCE: u32 = 3;
+
+/// Most factorisations and most solutions.
+const MOST: [u32; 2] = [30, 80];
+
+/// The system of a group, with the room it needs.
+#[derive(Clone, Debug, Default)]
+pub struct Together {
+    system: Newton,
+    saved: Saved,
+    /// Rows of joints in the factors.
+    noted: Vec<[bool; 3]>,
+}
+
+/// Impulses and velocities, to go back to.
+#[derive(Clone, Debug, Default)]
+struct Saved {
+    contacts: Vec<([Real; 3], Real, bool)>,
+    joints: Vec<Row>,
+    twists: Vec<Twist>,
+}
+
+/// What moves: bodies, contacts and joints.
+struct Rows<'a> {
+    velocities: &'a mut [Velocity],
+    blocks: &'a mut [Block],
+    ties: &'a mut Ties,
+}
+
+/// How far a search has come.
+struct Search {
+    epsilon: Real,
+    /// Below which ε does not fall now.
+    least: Real,
+    /// Sweeps after a step that is undone.
+    more: u32,
+    undone: u32,
+    factorisations: u32,
+    sweeps: u32,
+    best: Real,
+}
+
+/// Solves all rows; returns the number of sweeps and what the rows still lack (m/s).
+pub fn solve(group: &mut Group, budget: Budget, outcome: &mut Outcome) -> (u32, Real) {
+    let Group { velocities, blocks, ties, together, .. } = group;
+    let mut rows = Rows { velocities, blocks, ties };
+    let first = rows.look(1, false);
+    let tolerance = EXACT * budget.tolerance;
+    if first <= tolerance {
+        return (1, first);
+    }
+    let tolerance = tolerance.max(ROUNDING * rows.fastest());
+    let mut search = Search::new();
+    let residual = together.search(&mut rows, (first, tolerance, budget), &mut search);
+    outcome.factorisations += u64::from(search.factorisations);
+    (search.sweeps, residual)
+}
+
+impl Together {
+    /// Steps until the rows lack no more than a tolerance, or little enough for sweeps after steps that went wrong, or the
+    /// most of all is reached. The best is kept.
+    fn search(
+        &mut self,
+        rows: &mut Rows,
+        (first, tolerance, budget): (Real, Real, Budget),
+        search: &mut Search,
+    ) -> Real {
+        self.system.analyse(rows.velocities, rows.blocks, rows.ties.links());
+        self.noted.clear();
+        let mut residual = first;
+        for step in 0..MOST[1] {
+            if residual < search.best || step == 0 {
+                search.best = residual;
+                self.saved.save(rows);
+            }
+            if residual <= WORSE * search.best {
+                search.goes_well();
+            } else {
+                self.saved.restore(rows);
+                residual = rows.look(search.more, false);
+                search.best = residual;
+                self.saved.save(rows);
+                search.goes_wrong();
+            }
+            let enough = search.undone >= PATIENCE && residual <= budget.tolerance;
+            if residual <= tolerance || enough || search.factorisations >= MOST[0] {
+                break;
+            }
+            residual = self.step(rows, search, tolerance).unwrap_or(Real::INFINITY);
+        }
+        if residual > search.best {
+            self.saved.restore(rows);
+        }
+        residual.min(search.best)
+    }
+
+    /// One solution and a sweep: what the rows lack then, or nothing if that is no number.
+    fn step(&mut self, rows: &mut Rows, search: &mut Search, tolerance: Real) -> Option<Real> {
+        let Self { system, noted, .. } = self;
+        let joints = rows.ties.solved_rows(noted);
+        let guess = (search.factorisations == 0).then_some(tolerance);
+        let how = (search.epsilon, guess);
+        let made = system.factor((rows.velocities, rows.blocks), joints, how);
+        search.factorisations += u32::from(made);
+        system.lack(rows.velocities, rows.blocks);
+        let contacts = system.contacts();
+        rows.ties.lack(rows.velocities, &mut system.wanted[contacts..]);
+        if !system.solve(rows.velocities, rows.blocks) {
+            return None;
+        }
+        rows.ties.add(rows.velocities, &system.solved[contacts..]);
+        search.sweeps += 1;
+        let residual = rows.look(1, search.factorisations > joints::TOGETHER as u32);
+        rows.fastest().is_finite().then_some(residual)
+    }
+}
+
+impl Search {
+    fn new() -> Self {
+        Self {
+            epsilon: EPSILON / CHANGE[0],
+            least: LEAST,
+            more: 1,
+            undone: 0,
+            factorisations: 0,
+            sweeps: 1,
+            best: Real::INFINITY,
+        }
+    }
+
+    fn goes_well(&mut self) {
+        self.epsilon = (self.epsilon * CHANGE[0]).max(self.least);
+        self.least = (self.least * CAREFUL[1]).max(LEAST);
+    }
+
+    fn goes_wrong(&mut self) {
+        self.least = (self.epsilon * CAREFUL[0]).min(1.0);
+        self.epsilon = (self.epsilon * CHANGE[1]).min(1.0);
+        self.sweeps += self.more;
+        self.more = (self.more + MORE[0]).min(MORE[1]);
+        self.undone += 1;
+    }
+}
+
+impl Rows<'_> {
+    /// Reviews the joints and sweeps the contacts a number of times; returns what they lack.
+    fn look(&mut self, sweeps: u32, one_by_one: bool) -> Real {
+        let Self { velocities, blocks, ties, .. } = self;
+        let mut residual = 0.0;
+        for _ in 0..sweeps {
+            ties.review(velocities, one_by_one);
+            let one = Budget { tolerance: 0.0, most: 1 };
+            residual = sweep::solve(velocities, blocks, one).1.max(ties.largest_lack(velocities));
+        }
+        residual
+    }
+
+    /// The largest velocity (m/s); infinite if one is no number.
+    fn fastest(&self) -> Real {
+        let speed = |velocity: &Velocity| {
+            let known = velocity.twist.angular.is_finite();
+            let speed = velocity.twist.linear.norm();
+            if known && !speed.is_nan() { speed } else { Real::INFINITY }
+        };
+        self.velocities.iter().map(speed).fold(0.0, Real::max)
+    }
+}
+
+impl Saved {
+    fn save(&mut self, rows: &Rows) {
+        self.contacts.clear();
+        self.contacts
+            .extend(rows.blocks.iter().map(|block| (block.impulse, block.rolling, block.sliding)));
+        rows.ties.save(&mut self.joints);
+        self.twists.clear();
+        self.twists.extend(rows.velocities.iter().map(|velocity| velocity.twist));
+    }
+
+    fn restore(&self, rows: &mut Rows) {
+        for (block, saved) in rows.blocks.iter_mut().zip(&self.contacts) {
+            (block.impulse, block.rolling, block.sliding) = *saved;
+        }
+        rows.ties.restore(&self.joints);
+        for (velocity, twist) in rows.velocities.iter_mut().zip(&self.twists) {
+            velocity.twist = *twist;
+        }
+    }
+}
