@@ -114,6 +114,7 @@ _Rule: TypeAlias = Literal[
     "geometric_mean", "hypotenuse", "product", "minimum", "maximum", "average"
 ]
 _ImpactLaw: TypeAlias = Literal["newton", "poisson", "stronge"]
+_Solver: TypeAlias = Literal["sweep", "newton", "auto"]
 _Friction: TypeAlias = float | _Vec2Arg
 _Law: TypeAlias = Callable[[State], ArrayLike | tuple[ArrayLike, ArrayLike]]
 _Potential: TypeAlias = Callable[[State], float]
@@ -1544,7 +1545,9 @@ class Trajectory:
 class StepReport:
     """What the last step or run took."""
 
-    __match_args__: ClassVar[tuple[str, str, str, str, str, str, str, str, str, str, str, str, str]]
+    __match_args__: ClassVar[
+        tuple[str, str, str, str, str, str, str, str, str, str, str, str, str, str]
+    ]
 
     def __new__(
         cls,
@@ -1555,6 +1558,7 @@ class StepReport:
         sweeps: int,
         solves: int,
         parts: int,
+        factorisations: int,
         impacts: int,
         residual: float,
         smallest_step: float,
@@ -1586,6 +1590,9 @@ class StepReport:
 
         256 may not have been enough.
         """
+    @property
+    def factorisations(self) -> int:
+        """Factorisations of the rows of contacts and joints together."""
     @property
     def impacts(self) -> int:
         """Impacts resolved."""
@@ -1692,6 +1699,7 @@ class World:
         friction_rule: _Rule = ...,
         restitution_rule: _Rule = ...,
         impact_law: _ImpactLaw = ...,
+        solver: _Solver = ...,
         sleeping: bool = False,
         timing: bool = False,
     ) -> World: ...
@@ -1780,6 +1788,15 @@ class World:
         """
     @impact_law.setter
     def impact_law(self, value: _ImpactLaw, /) -> None: ...
+    @property
+    def solver(self) -> _Solver:
+        """How the rows of contacts and joints are solved.
+
+        "sweep" one contact after the other, "newton" all of an island at once, "auto" as the
+        island asks for.
+        """
+    @solver.setter
+    def solver(self, value: _Solver, /) -> None: ...
     @property
     def asleep(self) -> int:
         """How many bodies sleep."""

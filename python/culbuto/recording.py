@@ -103,6 +103,7 @@ def _summed(reports: list[StepReport]) -> StepReport:
         sum(report.sweeps for report in reports),
         sum(report.solves for report in reports),
         max(report.parts for report in reports),
+        sum(report.factorisations for report in reports),
         sum(report.impacts for report in reports),
         max(report.residual for report in reports),
         min(report.smallest_step for report in reports),

@@ -2,6 +2,7 @@
 
 use culbuto::body::{ImpactLaw, Mixing, Rule};
 use culbuto::math::Real;
+use culbuto::solvers::Solver;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -63,6 +64,18 @@ impl<'py> FromPyObject<'_, 'py> for ImpactLawArg {
     }
 }
 
+/// A way to solve rows as an argument.
+#[derive(Clone, Copy)]
+pub struct SolverArg(pub Solver);
+
+impl<'py> FromPyObject<'_, 'py> for SolverArg {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        by_name("solver", object, &Solver::ALL).map(Self)
+    }
+}
+
 impl World {
     fn set_mixing(&self, py: Python<'_>, change: impl FnOnce(&mut Mixing)) -> PyResult<()> {
         self.set(py, |core| {
@@ -108,6 +121,19 @@ impl World {
     #[setter]
     fn set_impact_law(&self, py: Python<'_>, law: ImpactLawArg) -> PyResult<()> {
         self.core(py)?.set_impact_law(law.0);
+        Ok(())
+    }
+
+    /// How the rows of contacts and joints are solved: "sweep" one contact after the other, "newton" all of an island at
+    /// once, "auto" as the island asks for.
+    #[getter]
+    fn solver(&self, py: Python<'_>) -> PyResult<&'static str> {
+        Ok(name_of(&self.core(py)?.settings().solver, &Solver::ALL))
+    }
+
+    #[setter]
+    fn set_solver(&self, py: Python<'_>, solver: SolverArg) -> PyResult<()> {
+        self.core(py)?.set_solver(solver.0);
         Ok(())
     }
 

@@ -32,6 +32,8 @@ record! {
         solves: u64,
         /// Most parts that a substep was divided into because of what joints bear; 256 may not have been enough.
         parts: u32,
+        /// Factorisations of the rows of contacts and joints together, summed over islands and substeps.
+        factorisations: u64,
         /// Impacts resolved.
         impacts: u64,
         /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
@@ -58,6 +60,7 @@ impl From<&world::StepReport> for StepReport {
             sweeps: report.sweeps,
             solves: report.solves,
             parts: report.parts,
+            factorisations: report.factorisations,
             impacts: report.impacts,
             residual: report.residual,
             smallest_step: report.smallest_step,

@@ -19,7 +19,7 @@ use crate::field::Field;
 use crate::hooks::Rules;
 use crate::joint::Joint;
 use crate::joints::BrokenJoint;
-use crate::mixing::{ImpactLawArg, RuleArg};
+use crate::mixing::{ImpactLawArg, RuleArg, SolverArg};
 use crate::parts::Made;
 use crate::schedule::Schedule;
 use crate::vec2::Vec2;
@@ -160,6 +160,7 @@ const STILL: Vec2Arg = Vec2Arg(vec2(0.0, 0.0));
 const GEOMETRIC_MEAN: RuleArg = RuleArg(Rule::GeometricMean);
 const MAXIMUM: RuleArg = RuleArg(Rule::Maximum);
 const NEWTON: ImpactLawArg = ImpactLawArg(ImpactLaw::Newton);
+const SOLVER: SolverArg = SolverArg(culbuto::solvers::Solver::Sweep);
 
 #[pymethods]
 impl World {
@@ -167,7 +168,7 @@ impl World {
     #[pyo3(signature = (
         gravity=GRAVITY, *, air_density=0.0, wind=STILL, method="leapfrog", substeps=4,
         closed_form=true, friction_rule=GEOMETRIC_MEAN, restitution_rule=MAXIMUM, impact_law=NEWTON,
-        sleeping=false, timing=false,
+        solver=SOLVER, sleeping=false, timing=false,
     ))]
     #[allow(clippy::too_many_arguments, reason = "one keyword each in Python")]
     fn new(
@@ -180,6 +181,7 @@ impl World {
         friction_rule: RuleArg,
         restitution_rule: RuleArg,
         impact_law: ImpactLawArg,
+        solver: SolverArg,
         sleeping: bool,
         timing: bool,
     ) -> PyResult<Self> {
@@ -191,6 +193,7 @@ impl World {
             let (friction, restitution) = (friction_rule.0, restitution_rule.0);
             core.set_mixing(Mixing { friction, restitution, ..Mixing::default() })?;
             core.set_impact_law(impact_law.0);
+            core.set_solver(solver.0);
             core.set_sleeping(sleeping);
             core.set_timing(timing);
             Ok(core)

@@ -128,6 +128,7 @@ const BAD: &[(&str, &str, &str)] = &[
     ),
     (r#""settings": {"mixing": {"friction": "mean"}}"#, "settings.mixing.friction", "`average`"),
     (r#""settings": {"impact_law": "hooke"}"#, "settings.impact_law", "`stronge`"),
+    (r#""settings": {"solver": "guess"}"#, "settings.solver", "`newton`"),
     (
         r#""schedules": [{"body": 0, "times": [0, 1], "forces": [[1, 2]]}]"#,
         "schedules[0].body",

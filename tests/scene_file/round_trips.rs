@@ -9,6 +9,7 @@ use culbuto::math::{Real, Vec2, Wrench, vec2};
 use culbuto::scenes::SceneFile;
 use culbuto::scenes::file::{SceneBody, ScenePart};
 use culbuto::shapes::{Shape, ShapeDef};
+use culbuto::solvers::Solver;
 use culbuto::{BodyDef, Part, World, methods};
 use proptest::prelude::*;
 
@@ -165,9 +166,10 @@ fn worlds() -> impl Strategy<Value = World> {
     let fields = (any::<bool>(), any::<bool>(), any::<bool>());
     let run = (prop::collection::vec(1e-3..0.03, 0..8), -3.0..3.0);
     let law = prop::sample::select(ImpactLaw::ALL.map(|(_, law)| law).to_vec());
-    let contacts = (mixing(), law, any::<bool>());
+    let solver = prop::sample::select(Solver::ALL.map(|(_, solver)| solver).to_vec());
+    let contacts = (mixing(), law, solver, any::<bool>());
     (settings, prop::collection::vec(bodies(), 2..6), schedules, fields, run, contacts)
-        .prop_map(|(settings, bodies, schedules, fields, run, (mixing, law, sleeping))| {
+        .prop_map(|(settings, bodies, schedules, fields, run, (mixing, law, solver, sleeping))| {
             let mut world = World::new(settings.3).unwrap();
             world.set_method(methods::REGISTRY[settings.0].facts().name).unwrap();
             world.set_substeps(settings.1).unwrap();
@@ -175,6 +177,7 @@ fn worlds() -> impl Strategy<Value = World> {
             world.set_air(Air { density: settings.4, wind: settings.5 }).unwrap();
             world.set_mixing(mixing).unwrap();
             world.set_impact_law(law);
+            world.set_solver(solver);
             world.set_sleeping(sleeping);
             world.set_time(run.1).unwrap();
             let handles: Vec<_> =
@@ -348,7 +351,9 @@ fn what_is_as_usual_is_not_written() {
     let shape = r#"{"shape": {"circle": {"radius": 1.0}}"#;
     let plain = format!(r#"{{"culbuto": 1, "bodies": [{{"shapes": [{shape}}}]}}]}}"#);
     let text = SceneFile::from_json(&plain).unwrap().to_json();
-    for key in ["friction", "filter", "role", "material", "mixing", "impact_law", "sleeping"] {
+    for key in
+        ["friction", "filter", "role", "material", "mixing", "impact_law", "solver", "sleeping"]
+    {
         assert!(!text.contains(key), "{key}: {text}");
     }
     let part = format!(r#"{shape}, "friction": 0.5, "filter": {{"group": -1}}}}"#);

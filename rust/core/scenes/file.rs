@@ -24,6 +24,7 @@ use crate::body::{Friction, ImpactLaw, Mixing};
 use crate::error::{Error, Result};
 use crate::forces::{Air, Attraction, Central};
 use crate::math::{Real, Vec2, vec2};
+use crate::solvers::Solver;
 use crate::world::Settings;
 
 /// The version of scene files that this engine writes, and the only one it reads.
@@ -125,6 +126,8 @@ pub struct SceneSettings {
     pub mixing: Mixing,
     /// What restitution is a ratio of.
     pub impact_law: ImpactLaw,
+    /// How the rows of contacts and joints are solved.
+    pub solver: Solver,
     /// Bodies that have come to rest are left out of the work until something wakes them.
     pub sleeping: bool,
 }
@@ -143,6 +146,7 @@ impl From<&Settings> for SceneSettings {
             closed_form: settings.closed_form,
             mixing: settings.mixing.clone(),
             impact_law: settings.impact_law,
+            solver: settings.solver,
             sleeping: settings.sleeping,
         }
     }

@@ -24,3 +24,9 @@ pub enum Solver {
     /// As the island asks for.
     Auto,
 }
+
+impl Solver {
+    /// All of them, with their names in scene files.
+    pub const ALL: [(&'static str, Self); 3] =
+        [("sweep", Self::Sweep), ("newton", Self::Newton), ("auto", Self::Auto)];
+}

@@ -98,7 +98,12 @@ impl Newton {
     }
 
     /// Takes how the contacts stand; whether that is as it was when the rows were factored last.
-    fn take_modes(&mut self, bodies: &[Velocity], blocks: &[Block], (epsilon, guess): (Real, Option<Real>)) -> bool {
+    fn take_modes(
+        &mut self,
+        bodies: &[Velocity],
+        blocks: &[Block],
+        (epsilon, guess): (Real, Option<Real>),
+    ) -> bool {
         let mut same = self.factored == Some(epsilon);
         self.modes.resize(blocks.len(), Mode::default());
         for (mode, block) in self.modes.iter_mut().zip(blocks) {
@@ -118,7 +123,12 @@ impl Newton {
 
     /// Factors of the rows as the contacts stand, and of `others`, unless they are those that it has. Whether they had to be
     /// made.
-    pub fn factor(&mut self, (bodies, blocks): (&[Velocity], &[Block]), others: Option<&[Rows]>, (epsilon, guess): (Real, Option<Real>)) -> bool {
+    pub fn factor(
+        &mut self,
+        (bodies, blocks): (&[Velocity], &[Block]),
+        others: Option<&[Rows]>,
+        (epsilon, guess): (Real, Option<Real>),
+    ) -> bool {
         let same = self.take_modes(bodies, blocks, (epsilon, guess));
         if same && others.is_none() {
             return false;

@@ -41,6 +41,9 @@ const MORE: [u32; 2] = [3, 20];
 /// Steps that are undone before what satisfies sweeps is enough.
 const PATIENCE: u32 = 3;
 
+/// Solutions with the same factors: the first leaves ε of what there was, more of it the farther masses are apart.
+const SOLUTIONS: usize = 2;
+
 /// Most factorisations and most solutions.
 const MOST: [u32; 2] = [30, 80];
 
@@ -143,13 +146,15 @@ impl Together {
         let how = (search.epsilon, guess);
         let made = system.factor((rows.velocities, rows.blocks), joints, how);
         search.factorisations += u32::from(made);
-        system.lack(rows.velocities, rows.blocks);
         let contacts = system.contacts();
-        rows.ties.lack(rows.velocities, &mut system.wanted[contacts..]);
-        if !system.solve(rows.velocities, rows.blocks) {
-            return None;
+        for _ in 0..SOLUTIONS {
+            system.lack(rows.velocities, rows.blocks);
+            rows.ties.lack(rows.velocities, &mut system.wanted[contacts..]);
+            if !system.solve(rows.velocities, rows.blocks) {
+                return None;
+            }
+            rows.ties.add(rows.velocities, &system.solved[contacts..]);
         }
-        rows.ties.add(rows.velocities, &system.solved[contacts..]);
         search.sweeps += 1;
         let residual = rows.look(1, search.factorisations > joints::TOGETHER as u32);
         rows.fastest().is_finite().then_some(residual)

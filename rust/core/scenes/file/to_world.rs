@@ -50,6 +50,7 @@ impl SceneFile {
         world.set_substeps(settings.substeps).map_err(at("settings"))?;
         world.set_closed_form(settings.closed_form);
         world.set_impact_law(settings.impact_law);
+        world.set_solver(settings.solver);
         world.set_sleeping(settings.sleeping);
         for (i, pair) in settings.mixing.table.iter().enumerate() {
             let path = format!("settings.mixing.table[{i}]");

@@ -58,18 +58,24 @@ pub static LONG: [Scene; 3] = [
 
 /// A world with ground to stand on, its surface at height 0.
 pub(in crate::scenes) fn ground() -> Result<World> {
+    ground_of(0.6)
+}
+
+/// The same with another friction.
+pub(super) fn ground_of(mu: Real) -> Result<World> {
     let mut world = World::default();
     world.add_body(BodyDef {
         kind: BodyKind::Static,
         position: vec2(0.0, -1.0),
-        surface: Surface { friction: Friction::of(0.6), ..Surface::default() },
+        surface: Surface { friction: Friction::of(mu), ..Surface::default() },
         ..BodyDef::new(Shape::rectangle(400.0, 2.0)?)
     })?;
     Ok(world)
 }
 
-fn add_box(world: &mut World, x: Real, y: Real) -> Result<()> {
+fn add_box(world: &mut World, (x, y): (Real, Real), density: Real) -> Result<()> {
     world.add_body(BodyDef {
+        density,
         position: vec2(x, y),
         surface: Surface { friction: Friction::of(0.6), ..Surface::default() },
         ..BodyDef::new(Shape::rectangle(1.0, 1.0)?)
@@ -78,15 +84,25 @@ fn add_box(world: &mut World, x: Real, y: Real) -> Result<()> {
 }
 
 /// A structure: its boxes off the middle by a fixed pattern or not, and the gap (m) that each falls by.
-type Build = fn(bool, Real) -> Result<World>;
+pub(super) type Build = fn(bool, Real) -> Result<World>;
 
 /// Boxes on one another.
 pub(in crate::scenes) fn tower<const LEVELS: u32>(loose: bool, gap: Real) -> Result<World> {
+    boxes(LEVELS, |_| 1.0, (loose, gap))
+}
+
+/// Boxes on one another, of any densities (kg/m²) by level.
+pub(super) fn boxes(
+    levels: u32,
+    density: impl Fn(u32) -> Real,
+    (loose, gap): (bool, Real),
+) -> Result<World> {
     let mut world = ground()?;
-    for level in 0..LEVELS {
+    for level in 0..levels {
         let off = if loose { 0.01 * pattern(level) } else { 0.0 };
         let above = Real::from(level);
-        add_box(&mut world, off, 0.5 + above + gap * (above + 1.0))?;
+        let at = (off, 0.5 + above + gap * (above + 1.0));
+        add_box(&mut world, at, density(level))?;
     }
     Ok(world)
 }
@@ -106,7 +122,8 @@ fn pyramid(loose: bool, gap: Real) -> Result<World> {
             let x = Real::from(place) - 0.5 * Real::from(BASE - level - 1);
             let off = if loose { 0.002 * pattern(37 * level + place) } else { 0.0 };
             let above = Real::from(level);
-            add_box(&mut world, 1.01 * x + off, 0.5 + above + gap * (above + 1.0))?;
+            let at = (1.01 * x + off, 0.5 + above + gap * (above + 1.0));
+            add_box(&mut world, at, 1.0)?;
         }
     }
     Ok(world)

@@ -1,7 +1,9 @@
 //! Block L D U of a matrix whose blocks lie symmetrically and differ: rows that push along other directions than those in
 //! which they measure, as contacts that slide do.
 
-use super::block::{self, Block, Triple, subtract, subtract_product, times, transposed, transposed_times};
+use super::block::{
+    self, Block, Triple, subtract, subtract_product, times, transposed, transposed_times,
+};
 use super::structure::Structure;
 use crate::math::Real;
 
