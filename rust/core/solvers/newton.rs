@@ -4,7 +4,7 @@
 //! In two dimensions Coulomb's law is one of three linear ones: u_t = 0, or λ_t = ±μ(λ_0 + λ_1). What slides pushes along
 //! n ± μt, so that its rows are unsymmetric; the same holds for what rolls against all the resistance that it has.
 
-use super::direct::{Block as Square, BodyFactor, Link, Rows, Triple};
+use super::direct::{Block as Square, BodyFactor, Link, Rows, Triple, on_ground};
 use crate::constraints::Velocity;
 use crate::constraints::contact::Block;
 use crate::math::Real;
@@ -74,13 +74,12 @@ const OFF: Rows = Rows { jacobian: [[[0.0; 3]; 3]; 2], compliance: [0.0; 3], on:
 impl Newton {
     /// Takes the graph: contacts, and links of others.
     pub fn analyse(&mut self, bodies: &[Velocity], blocks: &[Block], others: &[Link]) {
-        let end = |slot: u32| (!bodies[slot as usize].is_fixed()).then_some(slot);
-        let ends = |block: &Block| block.bodies.map(end);
+        let ends = |block: &Block| on_ground(&block.bodies.map(Some), bodies);
         self.links.clear();
         self.links.extend(blocks.iter().map(ends));
         self.links.extend(blocks.iter().filter(|block| block.rolling_resistance > 0.0).map(ends));
         self.contacts = self.links.len();
-        self.links.extend(others.iter().map(|link| link.map(|slot| slot.and_then(end))));
+        self.links.extend_from_slice(others);
         self.modes.clear();
         self.factored = None;
     }
