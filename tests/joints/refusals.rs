@@ -1,7 +1,11 @@
 //! What is not allowed is said so, and changes nothing.
 
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use culbuto::forces::{BodyColumns, BoxError, ForceField};
 use culbuto::joint::{Coefficients, Given, Hold, JointDef, JointKind, Motor, Spring, Travel};
-use culbuto::math::{Real, vec2};
+use culbuto::math::{Real, Wrench, vec2};
+use culbuto::shapes::Shape;
 use culbuto::{BodyDef, BodyHandle, BodyKind, Error, World};
 
 use crate::common::{DT, chain};
@@ -126,4 +130,41 @@ fn joints_that_are_gone() {
     assert!(world.joint(joint).is_err());
     assert!(world.edit_joint(joint, |_| ()).is_err());
     assert!(before == bytes(&world));
+}
+
+/// Fails at its tenth evaluation.
+struct Fails(AtomicU32);
+
+impl ForceField for Fails {
+    fn name(&self) -> &'static str {
+        "fails"
+    }
+
+    fn add_forces(&self, _: Real, _: &BodyColumns<'_>, _: &mut [Wrench]) -> Result<(), BoxError> {
+        if self.0.fetch_add(1, Ordering::Relaxed) < 10 {
+            Ok(())
+        } else {
+            Err("out of order".into())
+        }
+    }
+}
+
+/// A run to a tolerance over joints with bounds, of bodies that can meet nothing, goes another way than one over contacts.
+#[test]
+fn a_run_that_fails_changes_nothing() {
+    for alone in [true, false] {
+        let mut world = World::new(vec2(0.0, -9.81)).unwrap();
+        let wheel = BodyDef::new(Shape::rectangle(1.0, 0.3).unwrap());
+        let body = world.add_body(wheel.clone()).unwrap();
+        if !alone {
+            world.add_body(BodyDef { position: vec2(5.0, 0.0), ..wheel }).unwrap();
+        }
+        let kind = JointKind::Ratchet { step: 0.3, phase: 0.0 };
+        world.add_joint(JointDef::new(None, body, kind)).unwrap();
+        world.add_field(Fails(AtomicU32::new(0)));
+        let before = bytes(&world);
+        let error = world.advance(1.0, 1e-6).unwrap_err().to_string();
+        assert!(error.contains("out of order"), "{error}");
+        assert!(before == bytes(&world), "the world has changed, alone: {alone}");
+    }
 }
