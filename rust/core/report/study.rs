@@ -118,7 +118,7 @@ pub fn study(scene: &Scene, what: &Study) -> Result<Vec<Row>> {
 }
 
 fn is_contact(motion: &Motion) -> bool {
-    matches!(motion.judged, Judged::Contact { .. })
+    matches!(motion.judged, Judged::Contact { .. } | Judged::Joined { .. })
 }
 
 /// What moves the bodies of a run.
@@ -150,18 +150,28 @@ impl Mover {
         if let Self::Method(facts) = self { facts.order } else { 2 }
     }
 
+    /// Whether it is a method that moves what joints tie by itself.
+    fn holds_joints(self) -> bool {
+        if let Self::Method(facts) = self { facts.joints } else { false }
+    }
+
     fn is_adaptive(self) -> bool {
         if let Self::Method(facts) = self { facts.adaptive } else { false }
     }
 }
 
 /// What moves a scene's bodies in turn: the contact step where they touch, which the method does not change.
-fn movers(motion: &Motion, names: &[String]) -> Result<Vec<Mover>> {
+pub(super) fn movers(motion: &Motion, names: &[String]) -> Result<Vec<Mover>> {
     let methods = chosen(names)?;
-    if is_contact(motion) {
-        return Ok(vec![Mover::ContactStep]);
-    }
-    Ok(methods.into_iter().map(Mover::Method).collect())
+    let by_methods = methods.into_iter().map(Mover::Method);
+    Ok(match motion.judged {
+        Judged::Contact { .. } => vec![Mover::ContactStep],
+        Judged::Joined { .. } => [Mover::ContactStep]
+            .into_iter()
+            .chain(by_methods.filter(|m| m.holds_joints()))
+            .collect(),
+        Judged::AllMethods | Judged::AsItComes => by_methods.collect(),
+    })
 }
 
 /// The methods of these names; all, where there is none.

@@ -4,9 +4,8 @@ use serde::Serialize;
 
 use crate::error::Result;
 use crate::math::Real;
-use crate::methods::REGISTRY;
 use crate::report::order::{Order, order_by};
-use crate::report::study::{Mode, Mover, error_of};
+use crate::report::study::{Mode, Mover, error_of, movers};
 use crate::scenes::{Answer, Column, Judged, Motion, Scene};
 
 /// A figure that was asked for, and what was measured.
@@ -74,16 +73,16 @@ pub fn verify(scene: &Scene) -> Result<Verdict> {
     match scene.answer {
         Answer::Motion(motion) => {
             checks.extend(errors(&motion)?);
-            match motion.judged {
-                Judged::AllMethods => {
-                    for method in REGISTRY {
-                        methods.push(method_row(&motion, Mover::Method(method.facts()))?);
-                    }
+            let most = match motion.judged {
+                Judged::AsItComes | Judged::Contact { order: false } => 0,
+                // The contact step alone, which is the first.
+                Judged::Joined { orders: false } => 1,
+                Judged::AllMethods | Judged::Contact { order: true } | Judged::Joined { .. } => {
+                    usize::MAX
                 }
-                Judged::Contact { order: true } => {
-                    methods.push(method_row(&motion, Mover::ContactStep)?);
-                }
-                Judged::AsItComes | Judged::Contact { order: false } => {}
+            };
+            for mover in movers(&motion, &[])?.into_iter().take(most) {
+                methods.push(method_row(&motion, mover)?);
             }
         }
         Answer::Numbers(numbers) => {

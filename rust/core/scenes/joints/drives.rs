@@ -1,6 +1,6 @@
 //! Motors, brakes and ratchets: forces and torques with bounds.
 
-use super::{JOINED, disk, pin, rod};
+use super::{BOUNDED, disk, pin, rod};
 use crate::body::{BodyDef, BodyHandle};
 use crate::error::Result;
 use crate::joint::{Given, Hold, JointDef, JointKind, Motor, Travel};
@@ -39,7 +39,7 @@ pub static MOTOR: Scene = Scene {
         length: 0.5,
         fixed: 1e-10,
         toleranced: None,
-        judged: JOINED,
+        judged: BOUNDED,
     }),
     checks: &[
         at_fixed_step("speed in the end, relative", 1e-12, || {
@@ -91,7 +91,7 @@ pub static SLIDER: Scene = Scene {
         length: 1.0,
         fixed: 1e-10,
         toleranced: None,
-        judged: JOINED,
+        judged: BOUNDED,
     }),
     checks: &[
         at_fixed_step("speed once it is reached, relative", 1e-10, || {
@@ -210,7 +210,7 @@ pub static BOUNDED_GRAB: Scene = Scene {
         length: 1.0,
         fixed: 1e-10,
         toleranced: None,
-        judged: JOINED,
+        judged: BOUNDED,
     }),
     checks: &[
         // As Q4.

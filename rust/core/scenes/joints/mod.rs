@@ -30,8 +30,8 @@ use crate::world::World;
 /// Bodies that are joined and touch nothing.
 const APART: Filter = Filter { category: 1, mask: 0, group: 0 };
 
-/// What is judged where joints move the bodies, and whatever has no closed form.
-const JOINED: Judged = Judged::Contact { order: true };
+/// What is judged where rows of joints have bounds.
+const BOUNDED: Judged = Judged::Contact { order: true };
 
 /// What is asked of a run with a tolerance, where no row has a bound.
 const TOLERANCED: Option<Toleranced> = Some(Toleranced { tolerance: 1e-12, error: 1e-9 });

@@ -1,14 +1,14 @@
 //! Pendulums.
 
 use super::elliptic::swing;
-use super::{JOINED, TOLERANCED, pin, rod, watch};
+use super::{TOLERANCED, pin, rod, watch};
 use crate::body::{BodyDef, BodyHandle};
 use crate::error::Result;
 use crate::joint::JointDef;
 use crate::math::{PI, Pose, Real, Vec2, cos, ln_1p, sin_cos, vec2};
 use crate::scenes::gauge::worse;
 use crate::scenes::stage::{DT, G, at_fixed_step, heavy, with_tolerance};
-use crate::scenes::{Answer, Motion, Number, Scene, at};
+use crate::scenes::{Answer, Judged, Motion, Number, Scene, at};
 use crate::world::World;
 
 /// Where something is that hangs at a distance from the origin, at an angle from the lowest point.
@@ -117,7 +117,7 @@ pub static POINT: Scene = Scene {
         length: 1.0,
         fixed: 2e-3,
         toleranced: TOLERANCED,
-        judged: JOINED,
+        judged: Judged::Joined { orders: false },
     }),
     checks: &[
         at_fixed_step("energy over 10 s, of mgL", 1e-4, || {
@@ -154,7 +154,7 @@ pub static ROD: Scene = Scene {
         length: 1.0,
         fixed: 2e-3,
         toleranced: TOLERANCED,
-        judged: JOINED,
+        judged: Judged::Joined { orders: false },
     }),
     checks: &[at_fixed_step("energy over 10 s, of mgL", 1e-4, || {
         Ok(watch(&mut pinned(PI / 2.0)?, 10.0)?.energy / G)

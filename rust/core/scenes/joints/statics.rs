@@ -1,14 +1,14 @@
 //! What bears loads, closed loops, and a rope that catches.
 
 use super::elliptic::swing;
-use super::{JOINED, TOLERANCED, rod, watch, widest};
+use super::{TOLERANCED, rod, watch, widest};
 use crate::body::{BodyDef, BodyHandle};
 use crate::error::Result;
 use crate::joint::{JointDef, JointHandle};
 use crate::math::{PI, Real, Vec2, cross, sin_cos, vec2};
 use crate::scenes::gauge::at_most;
 use crate::scenes::stage::{DT, G, at_fixed_step, heavy};
-use crate::scenes::{Answer, Motion, Number, Scene, at, weightless};
+use crate::scenes::{Answer, Judged, Motion, Number, Scene, at, weightless};
 use crate::world::World;
 
 pub static BEAM: Scene = Scene {
@@ -89,7 +89,7 @@ pub static PLATFORM: Scene = Scene {
         length: LONG,
         fixed: 2e-3,
         toleranced: TOLERANCED,
-        judged: JOINED,
+        judged: Judged::Joined { orders: true },
     }),
     checks: &[
         at_fixed_step("gap in 10 s (m)", 1e-6, || Ok(watch(&mut platform(PI / 4.0)?.0, 10.0)?.gap)),

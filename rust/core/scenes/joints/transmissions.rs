@@ -1,13 +1,13 @@
 //! What passes motion on: pulleys, gears, racks. Along straight lines and about fixed axes constant forces give
 //! parabolas, which the step has to rounding.
 
-use super::{JOINED, TOLERANCED, disk, pin, rod};
+use super::{TOLERANCED, disk, pin, rod};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::joint::{Given, JointDef, JointKind, Travel};
 use crate::math::{Pose, Real, Vec2, vec2};
 use crate::scenes::stage::{DT, G, heavy};
-use crate::scenes::{Answer, Motion, Scene, at, weightless};
+use crate::scenes::{Answer, Judged, Motion, Scene, at, weightless};
 use crate::world::World;
 
 /// Masses on either side (kg).
@@ -51,7 +51,7 @@ pub static ATWOOD: Scene = Scene {
         length: 1.0,
         fixed: 1e-10,
         toleranced: TOLERANCED,
-        judged: JOINED,
+        judged: Judged::Joined { orders: true },
     }),
     checks: &[],
 };
@@ -95,7 +95,7 @@ pub static GEARS: Scene = Scene {
         length: 1.0,
         fixed: 1e-10,
         toleranced: TOLERANCED,
-        judged: JOINED,
+        judged: Judged::Joined { orders: true },
     }),
     checks: &[],
 };
@@ -135,7 +135,7 @@ pub static RACK: Scene = Scene {
         length: 1.0,
         fixed: 1e-10,
         toleranced: TOLERANCED,
-        judged: JOINED,
+        judged: Judged::Joined { orders: true },
     }),
     checks: &[],
 };
