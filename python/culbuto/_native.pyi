@@ -1546,7 +1546,7 @@ class StepReport:
     """What the last step or run took."""
 
     __match_args__: ClassVar[
-        tuple[str, str, str, str, str, str, str, str, str, str, str, str, str, str]
+        tuple[str, str, str, str, str, str, str, str, str, str, str, str, str, str, str, str]
     ]
 
     def __new__(
@@ -1560,9 +1560,11 @@ class StepReport:
         parts: int,
         factorisations: int,
         impacts: int,
+        events: int,
         residual: float,
         smallest_step: float,
         estimate: float | None,
+        fallback: tuple[float, str] | None,
         stages: Mapping[str, float],
         trajectory: Trajectory | None = ...,
     ) -> StepReport: ...
@@ -1597,6 +1599,12 @@ class StepReport:
     def impacts(self) -> int:
         """Impacts resolved."""
     @property
+    def events(self) -> int:
+        """Events located in time by runs to a tolerance.
+
+        Shapes that met, contacts that let go, broke away or came to rest.
+        """
+    @property
     def residual(self) -> float:
         """Largest change of velocity in the last sweep of a substep (m/s): what rows still lack."""
     @property
@@ -1605,6 +1613,12 @@ class StepReport:
     @property
     def estimate(self) -> float | None:
         """Estimated relative error; None where it was not asked for."""
+    @property
+    def fallback(self) -> tuple[float, str] | None:
+        """When (s) and why a run to a tolerance could not go from event to event at first.
+
+        From there on steps were taken twice for a while. None where it always could.
+        """
     @property
     def stages(self) -> dict[str, float]:
         """Seconds each stage took, where `World.timing` is on."""

@@ -105,8 +105,10 @@ def _summed(reports: list[StepReport]) -> StepReport:
         max(report.parts for report in reports),
         sum(report.factorisations for report in reports),
         sum(report.impacts for report in reports),
+        sum(report.events for report in reports),
         max(report.residual for report in reports),
         min(report.smallest_step for report in reports),
         None,
+        next((report.fallback for report in reports if report.fallback), None),
         {},
     )

@@ -36,12 +36,16 @@ record! {
         factorisations: u64,
         /// Impacts resolved.
         impacts: u64,
+        /// Events located in time by runs to a tolerance.
+        events: u64,
         /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
         residual: Real,
         /// Smallest step (s); infinite where only closed forms were needed.
         smallest_step: Real,
         /// Estimated relative error; None where it was not asked for.
         estimate: Option<Real>,
+        /// When (s) and why a run to a tolerance could not go from event to event for the first time; None where it did.
+        fallback: Option<(Real, String)>,
         /// Seconds each stage took, where `World.timing` is on.
         stages: BTreeMap<String, f64>,
         /// The motion at the times that were asked for.
@@ -62,9 +66,11 @@ impl From<&world::StepReport> for StepReport {
             parts: report.parts,
             factorisations: report.factorisations,
             impacts: report.impacts,
+            events: report.events,
             residual: report.residual,
             smallest_step: report.smallest_step,
             estimate: report.estimate,
+            fallback: report.fallback.map(|(time, why)| (time, why.to_owned())),
             stages: stages.collect(),
             trajectory: None,
         }

@@ -116,6 +116,8 @@ impl World {
         let mut thrown: Vec<(u32, Real)> = Vec::new();
         for _ in 0..MOST_THROWN {
             if !self.find_groups(&mut dt, short, &thrown)? {
+                let why = "groups that are too large, or have what events do not know";
+                self.report.fallback.get_or_insert((self.time(), why));
                 break;
             }
             self.scratch.contacts.by_events = Some(ByEvents::default());
@@ -139,7 +141,8 @@ impl World {
             self.go_back(&before);
             self.report = report.clone();
             self.events.hit.truncate(hits);
-            if booked.gave_up.is_some() {
+            if let Some(gave_up) = booked.gave_up {
+                self.report.fallback.get_or_insert(gave_up);
                 break;
             }
             thrown.extend(booked.thrown);
@@ -208,8 +211,13 @@ impl World {
             self.events.hit.truncate(hits);
             dt *= change.clamp(0.1, 0.5);
         }
-        let why = "two steps of different length do not agree where bodies meet; ask for less";
-        Err(Error::Tolerance { tolerance, time: self.time(), why: why.into() })
+        let mut why = String::from(
+            "two steps of different length do not agree where bodies meet; ask for less",
+        );
+        if let Some((time, reason)) = self.report.fallback {
+            why += &format!(" (events were not followed from t = {time} s on: {reason})");
+        }
+        Err(Error::Tolerance { tolerance, time: self.time(), why })
     }
 
     /// Puts a state back, and hands over the one that was there.

@@ -40,6 +40,9 @@ pub struct StepReport {
     pub impacts: u64,
     /// Events located in time by runs to a tolerance: shapes that met, contacts that let go, broke away or came to rest.
     pub events: u64,
+    /// When (s) and why a run to a tolerance could not go from event to event for the first time: from there on steps were taken twice
+    /// for a while, to the same tolerance but with less to say for it.
+    pub fallback: Option<(Real, &'static str)>,
     /// Largest change of velocity in the last sweep of a substep (m/s): what the rows of contacts still lack.
     pub residual: Real,
     /// Smallest step (s); infinite where only closed forms were needed.
@@ -63,6 +66,7 @@ impl Default for StepReport {
             factorisations: 0,
             impacts: 0,
             events: 0,
+            fallback: None,
             residual: 0.0,
             smallest_step: Real::INFINITY,
             estimate: None,

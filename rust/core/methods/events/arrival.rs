@@ -25,6 +25,8 @@ pub struct Pair<'a> {
     pub touch: Touch,
     /// Smaller width (m).
     pub width: Real,
+    /// What overlap the errors of the run may bring about, as a part of the width.
+    pub slack: Real,
 }
 
 /// What meets, and when.
@@ -252,9 +254,38 @@ impl Pair<'_> {
             if first.is_some() {
                 return first;
             }
+            if let Some(overlap) = self.unforeseen(path, [time, end], bearing) {
+                return Some(overlap);
+            }
             time = end;
         }
         None
+    }
+
+    /// Where features that none of the first ones led to begin to overlap within a stretch: what comes over the end of a face, say.
+    fn unforeseen(
+        &self,
+        path: &dyn Path,
+        [from, to]: [Real; 2],
+        bearing: &[u32],
+    ) -> Option<Arrival> {
+        let deepest = |time: Real| {
+            let frames = path.frames(self.slots, time);
+            let gaps = self.points(&frames, 0.0).into_iter().filter_map(|point| {
+                let new = !bearing.contains(&point.feature);
+                new.then(|| (point.seen([&frames[0], &frames[1]]).gap, point))
+            });
+            gaps.min_by(|x, y| x.0.total_cmp(&y.0))
+        };
+        let slack = self.slack * self.width + self.touching(&path.frames(self.slots, to));
+        let (gap, _) = deepest(to)?;
+        if gap >= -slack || deepest(from).is_some_and(|(gap, _)| gap < -slack) {
+            return None;
+        }
+        let above = |time: Real| deepest(time).map_or(slack, |(gap, _)| gap + slack);
+        let time = falling(above, [from, to]);
+        let point = deepest(time).filter(|(gap, _)| *gap < 0.0).map(|(_, point)| point);
+        Some(Arrival { time, point })
     }
 
     /// The end of the stretch on which shapes turn against one another, and joined ones move, only a little.

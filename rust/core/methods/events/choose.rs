@@ -5,8 +5,10 @@
 //! two-dimensional rigid body systems", 1981; Glocker and Pfeiffer, 1993). Surfaces that slide already rub with μ of
 //! sliding, those that begin to break away at μ of sticking.
 
+use super::impact::Still;
 use super::lcp;
 use super::modes::{Contact, Modes, Responses, Slip};
+use crate::collision::Frame;
 use crate::math::{Pose, Real, Twist};
 
 /// What an event has found out that rounding would hide.
@@ -23,9 +25,6 @@ pub enum Hint {
 /// A force below this part of the largest is none; an acceleration likewise.
 const NONE: Real = 1e-11;
 
-/// Speeds (m/s) of a contact below which it does not move.
-pub type Still<'a> = dyn Fn(&Contact) -> Real + 'a;
-
 /// Chooses the modes for accelerations by other forces, `free`. False where there is no solution without a jump.
 pub fn choose(
     modes: &mut Modes,
@@ -34,10 +33,17 @@ pub fn choose(
     (hints, still): (&[Hint], &Still<'_>),
 ) -> bool {
     modes.look(poses, twists);
+    // Friction acts at the points that may bear.
+    for k in 0..modes.contacts.len() {
+        let contact = &modes.contacts[k];
+        let may = may_bear(contact, modes.frames(contact.slots), twists, (hints, still));
+        modes.contacts[k].on = may;
+    }
     let responses = modes.responses(poses, twists);
     let mut wishes = Vec::new();
-    for (k, contact) in modes.contacts.iter().enumerate() {
-        wishes.push(Wish::of((k, contact), (modes, &responses), twists, (hints, still)));
+    for contact in &modes.contacts {
+        let slip = contact.slip_speed(modes.frames(contact.slots), twists);
+        wishes.push(Wish::of(contact, slip, (hints, still)));
     }
     modes.contacts.iter_mut().for_each(|contact| contact.on = [false; 2]);
     let mut start = free.to_vec();
@@ -78,22 +84,28 @@ struct Answer {
     slip: Slip,
 }
 
+/// Points of a contact that may bear: those that do not leave.
+fn may_bear(
+    contact: &Contact,
+    frames: [&Frame; 2],
+    twists: &[Twist],
+    (hints, still): (&[Hint], &Still<'_>),
+) -> [bool; 2] {
+    let pair = contact.slots.map(|slot| &twists[slot as usize]);
+    [0, 1].map(|p| {
+        if p >= contact.count {
+            return false;
+        }
+        let seen = contact.seen(p, frames);
+        let leaves = seen.normal.dot(&seen.velocity(pair)) > still(contact);
+        !leaves && !hints.contains(&Hint::LetsGo(contact.pair, contact.points[p].feature))
+    })
+}
+
 impl Wish {
-    fn of(
-        (k, contact): (usize, &Contact),
-        (modes, responses): (&Modes, &Responses),
-        twists: &[Twist],
-        (hints, still): (&[Hint], &Still<'_>),
-    ) -> Self {
-        let speed = still(contact);
-        let may = [0, 1].map(|p| {
-            let gone = Hint::LetsGo(contact.pair, contact.points[p].feature);
-            p < contact.count
-                && responses.along(3 * k + p, twists) <= speed
-                && !hints.contains(&gone)
-        });
+    fn of(contact: &Contact, slip: Real, (hints, still): (&[Hint], &Still<'_>)) -> Self {
+        let (may, speed) = (contact.on, still(contact));
         let name = (contact.pair, contact.points[0].feature);
-        let slip = contact.slip_speed(modes.frames(contact.slots), twists);
         let stopped = hints.contains(&Hint::Stopped(name.0, name.1)) || slip.abs() <= speed;
         let breaks = hints.iter().find_map(|hint| match *hint {
             Hint::Breaks(pair, feature, sigma) if (pair, feature) == name => Some(sigma),

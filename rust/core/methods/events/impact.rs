@@ -5,7 +5,7 @@
 use super::lcp;
 use super::modes::{Contact, Modes, Responses};
 use crate::body::ImpactLaw;
-use crate::collision::{Anchor, Manifold, Normal};
+use crate::collision::{Anchor, Frame, Manifold, Normal};
 use crate::constraints::contact::{Block, Memory, Touch};
 use crate::math::{Pose, Real, Twist, Vec2, vec2};
 use crate::methods::contact_step::law;
@@ -27,14 +27,20 @@ pub struct Struck {
     pub impulse: Real,
 }
 
+/// Speeds (m/s) up to which a contact does not move.
+pub type Still<'a> = dyn Fn(&Contact) -> Real + 'a;
+
+/// Whether a point that leaves at a speed under an acceleration towards the surface comes back so soon that its bounces are over.
+pub type Low<'a> = dyn Fn(&Contact, Real, Real) -> bool + 'a;
+
 /// What decides about impacts.
 pub struct Rules<'a> {
     /// The law.
     pub law: ImpactLaw,
     /// Approach (m/s) up to which a contact does not move.
-    pub still: &'a dyn Fn(&Contact) -> Real,
-    /// Whether a point that leaves at a speed under an acceleration towards the surface comes back so soon that its bounces are over.
-    pub settled: &'a dyn Fn(&Contact, Real, Real) -> bool,
+    pub still: &'a Still<'a>,
+    /// Whether bounces are over.
+    pub settled: &'a Low<'a>,
 }
 
 /// What impacts took.
@@ -260,18 +266,27 @@ impl Bounce<'_> {
     fn book(&self, k: usize, u: [Real; 2], impulse: [Real; 3], taken: &mut Taken) {
         let contact = &self.modes.contacts[k];
         let frames = self.modes.frames(contact.slots);
-        let seen = [0, 1].map(|p| contact.seen(p.min(contact.count - 1), frames));
-        let struck: Vec<usize> = (0..contact.count).filter(|p| impulse[*p] > 0.0).collect();
-        let points: Vec2 = struck.iter().map(|p| seen[*p].arms[0]).sum();
-        taken.struck.push(Struck {
-            pair: contact.pair,
-            time: 0.0,
-            point: self.poses[contact.slots[0] as usize].position
-                + points / struck.len().max(1) as Real,
-            normal: seen[0].normal,
-            approach: -u[0].min(u[1]),
-            impulse: impulse[0] + impulse[1],
-        });
+        taken.struck.push(struck((contact, frames), self.poses, u, impulse));
+    }
+}
+
+/// What an impact was; its time is the run's to know.
+fn struck(
+    (contact, frames): (&Contact, [&Frame; 2]),
+    poses: &[Pose],
+    u: [Real; 2],
+    impulse: [Real; 3],
+) -> Struck {
+    let seen = [0, 1].map(|p| contact.seen(p.min(contact.count - 1), frames));
+    let bearing: Vec<usize> = (0..contact.count).filter(|p| impulse[*p] > 0.0).collect();
+    let points: Vec2 = bearing.iter().map(|p| seen[*p].arms[0]).sum();
+    Struck {
+        pair: contact.pair,
+        time: 0.0,
+        point: poses[contact.slots[0] as usize].position + points / bearing.len().max(1) as Real,
+        normal: seen[0].normal,
+        approach: -u[0].min(u[1]),
+        impulse: impulse[0] + impulse[1],
     }
 }
 
@@ -303,11 +318,43 @@ pub fn stop_sliding(
             u[p] = un.min(0.0);
             let impulse = law::impulses(ImpactLaw::Poisson, &block, u, [0.0; 2]);
             taken.dissipated -= law::gain(&block, &u, &impulse);
+            taken.struck.push(struck(
+                (contact, modes.frames(contact.slots)),
+                poses,
+                [u[0], u[1]],
+                impulse,
+            ));
             for (r, x) in impulse.into_iter().enumerate() {
                 responses.push(3 * k + r, x, twists);
             }
             stopped = true;
         }
+    }
+    stopped
+}
+
+/// Stops points that leave so slowly, under forces that bring them back, that what follows is too low to matter: a block that rocks from
+/// corner to corner ever faster comes to rest. Whether anything was stopped. `accelerations` are those in the modes chosen.
+pub fn stop_low(
+    modes: &mut Modes,
+    (poses, twists): (&[Pose], &mut [Twist]),
+    accelerations: &[Twist],
+    (still, low): (&Still<'_>, &Low<'_>),
+) -> bool {
+    let responses = modes.responses(poses, twists);
+    let mut stopped = false;
+    for (k, contact) in modes.contacts.iter_mut().enumerate() {
+        for p in (0..contact.count).filter(|p| !contact.on[*p]).collect::<Vec<_>>() {
+            let speed = responses.along(3 * k + p, twists);
+            let pull = -(responses.along(3 * k + p, accelerations) + responses.bias(3 * k + p));
+            if speed > still(contact) && pull > 0.0 && low(contact, speed, pull) {
+                contact.on[p] = true;
+                stopped = true;
+            }
+        }
+    }
+    if stopped {
+        modes.halt_all(poses, twists);
     }
     stopped
 }

@@ -30,7 +30,7 @@ use crate::methods::{
     Adaptive, Control, Motion, Progress, Scratch, Sink, Span, System, Watch as Asks,
 };
 use choose::{Hint, choose};
-use impact::{Rules, Taken, resolve, stop_sliding};
+use impact::{Rules, Taken, resolve, stop_low, stop_sliding};
 use path::{Free, Path};
 use point::Point;
 use switch::{Event, Lookout, Watch};
@@ -64,8 +64,8 @@ pub struct Outcome {
     pub events: u64,
     /// Bodies (slots) that got farther than was looked, and how far (m); the run ended there.
     pub thrown: Vec<(u32, Real)>,
-    /// Why events could not go on; the run ended there.
-    pub gave_up: Option<&'static str>,
+    /// When (s) and why events could not go on; the run ended there.
+    pub gave_up: Option<(Real, &'static str)>,
 }
 
 /// Events of one run.
@@ -118,7 +118,8 @@ pub fn run(
         }
         at_once = if run.passed > before { 0 } else { at_once + 1 };
         if at_once > MOST_AT_ONCE || run.outcome.events > MOST_EVENTS {
-            run.outcome.gave_up.get_or_insert("events follow one another without end");
+            let time = run.time();
+            run.outcome.gave_up.get_or_insert((time, "events follow one another without end"));
         }
     }
     run.hand_out_rest(sink);
@@ -175,12 +176,16 @@ impl Run<'_, '_, '_, '_> {
         const JAMS: u32 = 8;
         let accelerations = self.accelerations()?;
         let Some(contacts) = self.contacts() else { return Ok(()) };
-        let free = self.free_accelerations()?;
+        let (free, now_at) = (self.free_accelerations()?, self.time());
         let Self { island, system, motion, outcome, .. } = self;
         let Some(modes) = &mut system.modes else { return Ok(()) };
         modes.contacts = contacts;
         let speed = |contact: &Contact, twists: &[Twist]| still(island, contact, twists, &free);
         let before = motion.twists.to_vec();
+        let masses = system.forces.masses;
+        let energy = |twists: &[Twist]| -> Real {
+            masses.iter().zip(twists).map(|(mass, twist)| mass.kinetic_energy(twist)).sum()
+        };
         let mut taken = Taken::default();
         for jam in 0.. {
             let now = motion.twists.to_vec();
@@ -196,18 +201,23 @@ impl Run<'_, '_, '_, '_> {
             let quiet = |contact: &Contact| speed(contact, &now);
             let state = (&*motion.poses, &now[..]);
             if choose(modes, state, &free, (&self.hints, &quiet)) {
-                break;
+                let mut bent = free.clone();
+                modes.accelerate(motion.poses, &now, &mut bent);
+                let low = |c: &Contact, u: Real, a: Real| is_low(island, c, u, a);
+                let stopped = stop_low(modes, (motion.poses, motion.twists), &bent, (&quiet, &low));
+                if !stopped {
+                    break;
+                }
+                taken.dissipated += energy(&now) - energy(motion.twists);
+            } else if !stop_sliding(modes, motion.poses, motion.twists, (&quiet, &mut taken)) {
+                outcome.gave_up = Some((now_at, "no modes of the contacts fit the forces"));
+                return Ok(());
             }
-            let jams = stop_sliding(modes, motion.poses, motion.twists, (&quiet, &mut taken));
-            if !jams || jam == JAMS {
-                outcome.gave_up = Some("no modes of the contacts fit the forces");
+            if jam == JAMS {
+                outcome.gave_up = Some((now_at, "no modes of the contacts fit the forces"));
                 return Ok(());
             }
         }
-        let mass = &system.forces.masses;
-        let energy = |twists: &[Twist]| -> Real {
-            mass.iter().zip(twists).map(|(m, v)| m.kinetic_energy(v)).sum()
-        };
         motion.ledger.dissipated += taken.dissipated;
         if island.driven {
             motion.ledger.work += energy(motion.twists) - energy(&before) + taken.dissipated;
@@ -235,7 +245,8 @@ impl Run<'_, '_, '_, '_> {
                     let point = Point::of(&manifold, p, bodies);
                     let gap = point.seen([&frames[0], &frames[1]]).gap;
                     if gap < -self.deep() * pair.width {
-                        self.outcome.gave_up = Some("shapes overlap");
+                        self.outcome.gave_up =
+                            Some((self.span.start + self.passed, "shapes overlap"));
                         return None;
                     }
                     let met = self.met.iter().any(|(met, features)| {
@@ -412,7 +423,8 @@ impl Run<'_, '_, '_, '_> {
         let (progress, stop) = match result {
             Ok(ended) => ended,
             Err(Error::Tolerance { .. }) => {
-                self.outcome.gave_up = Some("forces of the contacts grow without end");
+                self.outcome.gave_up =
+                    Some((self.time(), "forces of the contacts grow without end"));
                 return Ok(());
             }
             Err(error) => return Err(error),

@@ -89,8 +89,8 @@ pub struct Modes {
 /// Values up to so many times their rounding are rounding.
 const ROUNDING: Real = 4.0 * Real::EPSILON;
 
-/// Accelerations below this part of the terms they are made of are rounding: what rests stays where it is to the last bit.
-const NO_ACCELERATION: Real = 32.0 * Real::EPSILON;
+/// Accelerations and velocities below this part of the terms they are made of are rounding.
+const NOTHING: Real = 32.0 * Real::EPSILON;
 
 impl Modes {
     /// Of bodies with these masses, tied by joints that know them already.
@@ -130,23 +130,30 @@ impl Modes {
         self.look(poses, twists);
         let mut power = self.joints.start_forces(twists, out);
         self.collect(poses, twists);
-        self.terms.clear();
-        self.terms.extend(out.iter().map(|a| parts(a).map(Real::abs)));
         self.solve(|line| -line.bias, out, |line| line.push);
         let values = std::mem::take(&mut self.values);
-        for (line, force) in self.lines.iter().zip(&values) {
-            self.terms.add(line, *force, &self.inverse);
-            out.push_along(line, &line.push, (*force, &self.inverse));
-        }
-        for (a, terms) in out.iter_mut().zip(&self.terms) {
-            let [x, y, turn] = parts(a);
-            let kept =
-                |a: Real, terms: Real| if a.abs() <= NO_ACCELERATION * terms { 0.0 } else { a };
-            *a = Twist::new(vec2(kept(x, terms[0]), kept(y, terms[1])), kept(turn, terms[2]));
-        }
+        self.add(&values, out, |line| line.push);
         power += self.book(&values, twists);
         self.values = values;
         power
+    }
+
+    /// Adds forces or impulses along rows to accelerations or velocities. What is below the rounding of its terms is none: what
+    /// rests stays where it is to the last bit.
+    fn add(&mut self, values: &[Real], out: &mut [Twist], push: impl Fn(&Line) -> [[Real; 3]; 2]) {
+        let Self { lines, terms, inverse, .. } = self;
+        terms.clear();
+        terms.extend(out.iter().map(|a| parts(a).map(Real::abs)));
+        for (line, x) in lines.iter().zip(values) {
+            let push = push(line);
+            terms.add(line, &push, (*x, inverse));
+            out.push_along(line, &push, (*x, inverse));
+        }
+        for (a, terms) in out.iter_mut().zip(terms) {
+            let [x, y, turn] = parts(a);
+            let kept = |a: Real, terms: Real| if a.abs() <= NOTHING * terms { 0.0 } else { a };
+            *a = Twist::new(vec2(kept(x, terms[0]), kept(y, terms[1])), kept(turn, terms[2]));
+        }
     }
 
     /// Keeps the forces of a solution; returns their powers (W): what moves as it is given and conveyors do, and what
@@ -275,6 +282,21 @@ impl Modes {
         ledger
     }
 
+    /// Stops what moves along the rows of all points that are on.
+    pub fn halt_all(&mut self, poses: &[Pose], twists: &mut [Twist]) {
+        self.look(poses, twists);
+        self.collect(poses, twists);
+        let before = twists.to_vec();
+        self.halt_once(&before, twists);
+    }
+
+    fn halt_once(&mut self, before: &[Twist], twists: &mut [Twist]) {
+        self.solve(|line| line.speed, before, |line| line.jacobian);
+        let values = std::mem::take(&mut self.values);
+        self.add(&values, twists, |line| line.jacobian);
+        self.values = values;
+    }
+
     /// Takes from the velocities what moves against the rows.
     fn halt(&mut self, masses: &[Mass], twists: &mut [Twist]) -> Ledger {
         let mut ledger = Ledger::default();
@@ -285,8 +307,7 @@ impl Modes {
                 break;
             }
             let before = twists.to_vec();
-            self.solve(|line| line.speed, &before, |line| line.jacobian);
-            twists.push_all(&self.lines, &self.values, &self.inverse);
+            self.halt_once(&before, twists);
             for ((mass, old), new) in masses.iter().zip(&before).zip(&*twists) {
                 ledger.dissipated += mass.kinetic_energy(old) - mass.kinetic_energy(new);
             }
@@ -367,11 +388,21 @@ impl Contact {
         self.points[k].seen(frames)
     }
 
+    /// The points between which friction acts: those that bear, or all.
+    fn rubbing(&self) -> [usize; 2] {
+        match (self.count, self.on) {
+            (1, _) | (_, [true, false]) => [0, 0],
+            (_, [false, true]) => [1, 1],
+            _ => [0, 1],
+        }
+    }
+
     /// Rows of the points and of the tangent, which acts in the middle of the points.
     fn lines(&self, k: usize, frames: [&Frame; 2], twists: &[Twist]) -> [Line; 3] {
         let pair = self.slots.map(|slot| &twists[slot as usize]);
         let seen = [0, 1].map(|p| self.points[p.min(self.count - 1)].seen(frames));
         let biases = [0, 1].map(|p| self.points[p.min(self.count - 1)].bias(&seen[p], pair));
+        let [first, second] = self.rubbing();
         let line = |row: usize, jacobian: [[Real; 3]; 2], bias: Real| Line {
             slots: self.slots.map(Some),
             jacobian,
@@ -389,11 +420,11 @@ impl Contact {
             rounding: ROUNDING * reach.max(Real::MIN_POSITIVE),
             ..line(p, seen[p].jacobian(seen[p].normal), biases[p][0])
         };
-        let along = |p: usize| seen[p].jacobian(seen[0].tangent());
-        let middle = combined(&along(0), &along(1), 1.0).map(|side| side.map(|x| 0.5 * x));
+        let along = |p: usize| seen[p].jacobian(seen[first].tangent());
+        let middle = combined(&along(first), &along(second), 1.0).map(|side| side.map(|x| 0.5 * x));
         let tangent = Line {
             speed: self.touch.tangent_speed,
-            ..line(2, middle, 0.5 * (biases[0][1] + biases[1][1]))
+            ..line(2, middle, 0.5 * (biases[first][1] + biases[second][1]))
         };
         [normal(0), normal(1), tangent]
     }
@@ -405,8 +436,8 @@ impl Contact {
             let seen = self.points[p].seen(frames);
             seen.tangent().dot(&seen.velocity(pair))
         };
-        let sum: Real = (0..self.count).map(along).sum();
-        sum / self.count as Real - self.touch.tangent_speed
+        let [first, second] = self.rubbing();
+        0.5 * (along(first) + along(second)) - self.touch.tangent_speed
     }
 
     fn power(&self, frames: [&Frame; 2], inverse: &[[Real; 3]], twists: &[Twist]) -> Ledger {
@@ -493,12 +524,13 @@ impl Push for [Twist] {
 }
 
 trait Terms {
-    fn add(&mut self, line: &Line, x: Real, inverse: &[[Real; 3]]);
+    /// Adds |M⁻¹ pᵀ x|.
+    fn add(&mut self, line: &Line, push: &[[Real; 3]; 2], x: (Real, &[[Real; 3]]));
 }
 
 impl Terms for Vec<[Real; 3]> {
-    fn add(&mut self, line: &Line, x: Real, inverse: &[[Real; 3]]) {
-        for (slot, push) in line.slots.iter().zip(line.push) {
+    fn add(&mut self, line: &Line, push: &[[Real; 3]; 2], (x, inverse): (Real, &[[Real; 3]])) {
+        for (slot, push) in line.slots.iter().zip(push) {
             let Some(slot) = slot.map(|slot| slot as usize) else { continue };
             for c in 0..3 {
                 self[slot][c] += (inverse[slot][c] * push[c] * x).abs();

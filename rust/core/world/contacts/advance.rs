@@ -37,6 +37,8 @@ pub(in crate::world) struct ContactScratch {
     left: Vec<bool>,
     /// Groups that are not are moved from event to event.
     pub by_events: Option<super::ByEvents>,
+    /// Pairs of shapes with joins that show no features to one another now and may do so on the way.
+    pub bare: Vec<u32>,
     /// Solvers of the groups with joints, by the first of those: they know its graph.
     solvers: FxHashMap<u32, LinkSolver>,
     pub(super) group: Group,

@@ -2,8 +2,9 @@
 
 use super::events::ContactEvent;
 use super::near::Kind;
-use super::{Contacts, FAR, MARGIN};
+use super::{ContactScratch, Contacts, FAR, MARGIN};
 use crate::body::Bodies;
+use crate::collision::Geometry;
 use crate::error::Result;
 use crate::forces::has_resistance;
 use crate::math::{Pose, Real, Twist, Vec2};
@@ -51,7 +52,9 @@ impl World {
 
     /// Whether all groups that are not left to a method can be moved from event to event: small ones, whose joints have no
     /// bounds, and nothing in them that the modes do not know.
-    pub(in crate::world) fn suits_events(&self) -> bool {
+    pub(in crate::world) fn suits_events(&mut self) -> bool {
+        let Self { state, scratch, .. } = self;
+        state.contacts.find_bare(&mut scratch.contacts.bare);
         let scratch = &self.scratch.contacts;
         let (contacts, bodies) = (&self.state.contacts, &self.state.bodies);
         let plain = |place: u32| {
@@ -120,13 +123,13 @@ impl World {
         let spread = |i: &u32| self.state.contacts.spread_of([*i as usize]);
         let reach: Vec<Real> = group.members.iter().map(spread).collect();
         let sizes = group.sizes.clone();
-        let patches = group.patches.clone();
+        let near = group.pairs.clone();
         let given =
             |slot: usize| !group.masses[slot].is_free() && group.twists[slot] != Twist::ZERO;
         let driven = (0..group.masses.len()).any(given);
         let mut outcome = Outcome::default();
         let ledger = self.run_joined(true, |system, motion, (scratch, contacts)| {
-            let pairs = contacts.pairs_of(&patches);
+            let pairs = contacts.pairs_of(&near, tolerance);
             let driven = driven || pairs.iter().any(|pair| pair.touch.tangent_speed != 0.0);
             let island = Island { pairs, law, constant, driven, sizes, reach, tolerance };
             outcome = run(&island, system, motion, (span, samples), (scratch, sink, watch))?;
@@ -137,12 +140,10 @@ impl World {
     }
 
     fn book_events(&mut self, outcome: &Outcome, members: &[u32]) {
-        let JoinedGroup { patches, .. } = &self.scratch.joined.group;
+        let JoinedGroup { pairs, .. } = &self.scratch.joined.group;
         let contacts = &self.state.contacts;
-        // As the island's pairs are numbered.
-        let nears = contacts.nears_of(patches);
         let hit =
-            |hit: &Struck| contacts.hit_of((nears[hit.pair as usize], hit), &self.state.bodies);
+            |hit: &Struck| contacts.hit_of((pairs[hit.pair as usize].0, hit), &self.state.bodies);
         self.events.hit.extend(outcome.struck.iter().map(hit));
         self.report.book_progress(&outcome.progress);
         self.report.impacts += outcome.struck.len() as u64;
@@ -150,34 +151,60 @@ impl World {
         booked.events += outcome.events;
         let thrown = outcome.thrown.iter();
         booked.thrown.extend(thrown.map(|(slot, way)| (members[*slot as usize], *way)));
-        if let Some(why) = outcome.gave_up {
-            booked.gave_up.get_or_insert((self.state.clock.now, why));
-        }
+        booked.gave_up = booked.gave_up.or(outcome.gave_up);
     }
 }
 
 impl Contacts {
-    /// Pairs of patches, each once, in order.
-    fn nears_of(&self, patches: &[(u32, [u32; 2])]) -> Vec<u32> {
-        let near = |(place, _): &(u32, _)| self.patches[*place as usize].near;
-        let mut nears: Vec<u32> = patches.iter().map(near).collect();
-        nears.sort_unstable();
-        nears.dedup();
-        nears
+    /// Pairs of shapes with joins that show no features to one another.
+    fn find_bare(&self, bare: &mut Vec<u32>) {
+        bare.clear();
+        for (place, near) in self.near.iter().enumerate() {
+            let joined = near.proxies.iter().any(|proxy| {
+                let geometry = &self.entries[proxy.0 as usize].collider.geometry;
+                matches!(geometry, Geometry::Convex(convex) if convex.joins.is_some())
+            });
+            if joined && near.count == 0 && near.kind == Kind::Solid {
+                bare.push(place as u32);
+            }
+        }
+    }
+
+    /// Pairs of a group, each once, in order, and their bodies.
+    pub(in crate::world) fn pairs_of_group(
+        &self,
+        scratch: &ContactScratch,
+        k: usize,
+    ) -> Vec<(u32, [u32; 2])> {
+        let of_patch = |(place, pair): (u32, [u32; 2])| (self.patches[place as usize].near, pair);
+        let mut pairs: Vec<(u32, [u32; 2])> = scratch.patches_of(k).map(of_patch).collect();
+        if !pairs.is_empty() && !scratch.bare.is_empty() {
+            let mut members: Vec<u32> = pairs.iter().flat_map(|(_, pair)| *pair).collect();
+            members.sort_unstable();
+            for place in &scratch.bare {
+                let pair = self.near[*place as usize].proxies.map(|proxy| self.body_of(proxy));
+                if pair.iter().any(|body| {
+                    members.binary_search(body).is_ok() && scratch.moves(*body as usize)
+                }) {
+                    pairs.push((*place, pair));
+                }
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        pairs
     }
 
     /// The same as what may meet.
-    fn pairs_of(&self, patches: &[(u32, [u32; 2])]) -> Vec<Pair<'_>> {
-        let nears = self.nears_of(patches);
-        let pair = |near: &u32| {
-            let of = |(place, _): &&(u32, [u32; 2])| self.patches[*place as usize].near == *near;
-            let slots = patches.iter().find(of).map(|(_, slots)| *slots)?;
+    fn pairs_of(&self, pairs: &[(u32, [u32; 2])], tolerance: Real) -> Vec<Pair<'_>> {
+        let pair = |(near, slots): &(u32, [u32; 2])| {
             let near = &self.near[*near as usize];
             let colliders = near.proxies.map(|proxy| &self.entries[proxy.0 as usize].collider);
             let width = colliders[0].width.min(colliders[1].width);
-            Some(Pair { slots, colliders, touch: near.touch, width })
+            let slack = tolerance.min(1e-3);
+            Pair { slots: *slots, colliders, touch: near.touch, width, slack }
         };
-        nears.iter().filter_map(pair).collect()
+        pairs.iter().map(pair).collect()
     }
 
     fn hit_of(&self, (near, hit): (u32, &Struck), bodies: &Bodies) -> ContactEvent {

@@ -44,8 +44,8 @@ pub(in crate::world) struct Group {
     steady: Vec<Wrench>,
     /// What errors of bodies are measured against: their sizes, or how far their joints reach (m).
     pub sizes: Vec<Real>,
-    /// Patches of what may touch, and the slots of their bodies.
-    pub patches: Vec<(u32, [u32; 2])>,
+    /// Pairs that may touch, and the slots of their bodies.
+    pub pairs: Vec<(u32, [u32; 2])>,
     /// Places of the joints among those of the world.
     places: Vec<u32>,
     joints: Joints,
@@ -59,7 +59,7 @@ impl Group {
         self.masses.clear();
         self.steady.clear();
         self.sizes.clear();
-        self.patches.clear();
+        self.pairs.clear();
         self.places.clear();
         self.joints.clear();
     }
@@ -190,9 +190,9 @@ impl World {
                 slot_of(group, i);
             }
         }
-        for (place, pair) in scratch.contacts.patches_of(k) {
+        for (near, pair) in contacts.pairs_of_group(&scratch.contacts, k) {
             let slots = pair.map(|i| slot_of(group, i as usize));
-            group.patches.push((place, slots));
+            group.pairs.push((near, slots));
         }
         for place in scratch.contacts.joints_of(k) {
             let joint = &joints.values()[place as usize];
