@@ -20,17 +20,19 @@ pub struct Memory {
     pub rolling: Real,
     /// Whether it slid.
     pub sliding: bool,
+    /// Work that may be spent on solving all rows at once, in products of blocks.
+    pub credit: Real,
 }
 
 impl Memory {
     /// Of a contact that is new.
-    pub const NEW: Self = Self { impulse: [0.0; 3], rolling: 0.0, sliding: false };
+    pub const NEW: Self = Self { impulse: [0.0; 3], rolling: 0.0, sliding: false, credit: 3000.0 };
 
     /// For a substep this many times as long: the same forces. Times too small for that leave nothing to remember.
     #[must_use]
     pub fn scaled(self, by: Real) -> Self {
         if !by.is_finite() {
-            return Self { sliding: self.sliding, ..Self::NEW };
+            return Self { sliding: self.sliding, credit: self.credit, ..Self::NEW };
         }
         Self { impulse: self.impulse.map(|p| p * by), rolling: self.rolling * by, ..self }
     }
@@ -207,10 +209,10 @@ impl Block {
         }
     }
 
-    /// What is kept for the next step.
+    /// What is kept for the next step, with the credit of the contact.
     #[must_use]
-    pub fn memory(&self) -> Memory {
-        Memory { impulse: self.impulse, rolling: self.rolling, sliding: self.sliding }
+    pub fn memory(&self, credit: Real) -> Memory {
+        Memory { impulse: self.impulse, rolling: self.rolling, sliding: self.sliding, credit }
     }
 
     /// Unit vector along the surface: the normal turned by a quarter turn counter-clockwise.

@@ -69,6 +69,9 @@ pub struct Newton {
     factored: Option<Real>,
 }
 
+/// Work of a step around the factors, for each link.
+const AROUND: Real = 8.0;
+
 const OFF: Rows = Rows { jacobian: [[[0.0; 3]; 3]; 2], compliance: [0.0; 3], on: [false; 3] };
 
 impl Newton {
@@ -82,6 +85,12 @@ impl Newton {
         self.links.extend_from_slice(others);
         self.modes.clear();
         self.factored = None;
+        let loaded = |k: usize| blocks.get(k).is_none_or(|block| block.impulse != [0.0; 3]);
+        let bearing = self.links.iter().enumerate().filter_map(|(k, link)| match link {
+            [Some(a), Some(b)] if a != b && loaded(k) => Some([*a, *b]),
+            _ => None,
+        });
+        self.factor.expect(bodies.len(), bearing);
     }
 
     /// Number of links of contacts: those of others follow.
@@ -90,10 +99,10 @@ impl Newton {
         self.contacts
     }
 
-    /// Products of blocks that factors take.
-    #[must_use]
-    pub fn work(&self) -> usize {
-        self.factor.work()
+    /// Work of a step, with factors that were made for it or not, in products of blocks.
+    pub fn cost(&mut self, made: bool) -> Real {
+        let own = AROUND * self.links.len() as Real;
+        if made { own + self.factor.work() } else { own }
     }
 
     /// Takes how the contacts stand; whether that is as it was when the rows were factored last.

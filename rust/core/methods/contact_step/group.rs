@@ -77,6 +77,8 @@ pub struct Link {
     pub hit: Hit,
     /// Normal impulses of the rows in the step (N·s).
     pub passed: Real,
+    /// Its part of the work that may be spent on solving all rows at once.
+    pub credit: Real,
 }
 
 impl Link {
@@ -103,6 +105,7 @@ impl Link {
             beside: [false; 2],
             hit: Hit::default(),
             passed: 0.0,
+            credit: 0.0,
         }
     }
 }
@@ -169,7 +172,7 @@ pub struct Group {
     /// Some surface is driven: a kinematic body or a conveyor.
     pub driven: bool,
     /// Solves all rows at once.
-    pub together: Together,
+    pub together: Option<Together>,
     /// Length of the substep (s).
     pub(super) h: Real,
     /// World time in the middle of the substep (s).

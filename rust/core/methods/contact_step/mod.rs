@@ -15,6 +15,7 @@ pub(in crate::methods) mod law;
 pub mod newton;
 mod path;
 mod project;
+mod purse;
 mod settle;
 
 use crate::body::ImpactLaw;

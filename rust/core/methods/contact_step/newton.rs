@@ -82,22 +82,30 @@ struct Search {
     factorisations: u32,
     sweeps: u32,
     best: Real,
+    /// Work that may be done, and that was (products of blocks).
+    allowed: Real,
+    spent: Real,
 }
 
-/// Solves all rows; returns the number of sweeps and what the rows still lack (m/s).
-pub fn solve(group: &mut Group, budget: Budget, outcome: &mut Outcome) -> (u32, Real) {
+/// Solves all rows, as far as the work allowed goes; returns the number of sweeps and what the rows still lack (m/s).
+pub fn solve(
+    group: &mut Group,
+    (budget, allowed): (Budget, Real),
+    outcome: &mut Outcome,
+) -> (u32, Real, Real) {
     let Group { velocities, blocks, ties, together, .. } = group;
     let mut rows = Rows { velocities, blocks, ties };
     let first = rows.look(1, false);
     let tolerance = EXACT * budget.tolerance;
     if first <= tolerance {
-        return (1, first);
+        return (1, first, 0.0);
     }
     let tolerance = tolerance.max(ROUNDING * rows.fastest());
-    let mut search = Search::new();
+    let mut search = Search::new(allowed);
+    let together = together.get_or_insert_default();
     let residual = together.search(&mut rows, (first, tolerance, budget), &mut search);
     outcome.factorisations += u64::from(search.factorisations);
-    (search.sweeps, residual)
+    (search.sweeps, residual, search.spent)
 }
 
 impl Together {
@@ -127,7 +135,8 @@ impl Together {
                 search.goes_wrong();
             }
             let enough = search.undone >= PATIENCE && residual <= budget.tolerance;
-            if residual <= tolerance || enough || search.factorisations >= MOST[0] {
+            let spent = search.spent > 0.0 && search.spent >= search.allowed;
+            if residual <= tolerance || enough || spent || search.factorisations >= MOST[0] {
                 break;
             }
             residual = self.step(rows, search, tolerance).unwrap_or(Real::INFINITY);
@@ -146,6 +155,7 @@ impl Together {
         let how = (search.epsilon, guess);
         let made = system.factor((rows.velocities, rows.blocks), joints, how);
         search.factorisations += u32::from(made);
+        search.spent += system.cost(made);
         let contacts = system.contacts();
         for _ in 0..SOLUTIONS {
             system.lack(rows.velocities, rows.blocks);
@@ -162,8 +172,10 @@ impl Together {
 }
 
 impl Search {
-    fn new() -> Self {
+    fn new(allowed: Real) -> Self {
         Self {
+            allowed,
+            spent: 0.0,
             epsilon: EPSILON / CHANGE[0],
             least: LEAST,
             more: 1,

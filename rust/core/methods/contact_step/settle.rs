@@ -1,7 +1,7 @@
 //! Rows swept until they settle and give no energy.
 
 use super::group::RowWork;
-use super::{Group, Outcome, joints, newton, project};
+use super::{Group, Outcome, joints, newton, project, purse};
 use crate::constraints::Velocity;
 use crate::constraints::contact::Block;
 use crate::math::{Real, Twist};
@@ -29,10 +29,11 @@ pub fn settle(
     let width = group.links.iter().map(|link| link.width).fold(0.0, Real::max);
     let mut limited = false;
     for round in 0.. {
-        let (sweeps, residual) = if solver == Solver::Newton && round < SOLVED {
-            solve_all(group, budget, outcome)
-        } else {
-            sweep(group, budget)
+        let (sweeps, residual) = match solver {
+            _ if round >= SOLVED || group.blocks.is_empty() => sweep(group, budget),
+            Solver::Sweep => sweep(group, budget),
+            Solver::Newton => solve_all(group, (budget, Real::INFINITY), outcome),
+            Solver::Auto => purse::solve(group, budget, outcome),
         };
         outcome.sweeps += u64::from(sweeps);
         let work = group.row_work(h);
@@ -53,11 +54,12 @@ pub fn settle(
 }
 
 /// All rows at once; where that fails, sweeps go on from the best.
-fn solve_all(group: &mut Group, budget: Budget, outcome: &mut Outcome) -> (u32, Real) {
-    if group.blocks.is_empty() {
-        return sweep(group, budget);
-    }
-    let (sweeps, residual) = newton::solve(group, budget, outcome);
+fn solve_all(
+    group: &mut Group,
+    (budget, allowed): (Budget, Real),
+    outcome: &mut Outcome,
+) -> (u32, Real) {
+    let (sweeps, residual, _) = newton::solve(group, (budget, allowed), outcome);
     if residual <= budget.tolerance {
         return (sweeps, residual);
     }
@@ -65,7 +67,7 @@ fn solve_all(group: &mut Group, budget: Budget, outcome: &mut Outcome) -> (u32, 
     (sweeps + more, residual)
 }
 
-fn sweep(group: &mut Group, budget: Budget) -> (u32, Real) {
+pub(super) fn sweep(group: &mut Group, budget: Budget) -> (u32, Real) {
     let Group { velocities, blocks, ties, .. } = group;
     if ties.is_empty() {
         sweep::solve(velocities, blocks, budget)

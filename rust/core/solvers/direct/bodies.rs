@@ -34,6 +34,10 @@ struct Scaled {
 #[derive(Clone, Debug, Default)]
 pub struct BodyFactor {
     structure: Structure,
+    /// The graph that its order is of.
+    edges: Vec<[u32; 2]>,
+    /// Orders found since work was last asked for.
+    orders: Real,
     numeric: Numeric,
     unsymmetric: Unsymmetric,
     /// Whether the factors are those of the unsymmetric matrix.
@@ -45,9 +49,23 @@ pub struct BodyFactor {
     change: Vec<Triple>,
 }
 
+/// Work of finding an order, in parts of that of the factors.
+const ORDER: Real = 1.5;
+
 impl BodyFactor {
+    /// Takes the graph that is expected: the pairs of bodies that bear on one another. The order of elimination follows from it, not
+    /// from what was before, so that a run that is taken up again has the same bits.
+    pub fn expect(&mut self, bodies: usize, edges: impl Iterator<Item = [u32; 2]> + Clone) {
+        if self.structure.len() != bodies || !self.edges.iter().copied().eq(edges.clone()) {
+            self.edges.clear();
+            self.edges.extend(edges);
+            self.structure.analyse_edges(bodies, self.edges.iter().copied());
+            self.orders += 1.0;
+        }
+    }
+
     /// Factors of rows on bodies of these inverse masses; `pushes` where some push along other directions than those in which
-    /// they measure. ε is a part of each row's J M⁻¹ Jᵀ. The order of elimination is kept as long as it fits.
+    /// they measure. ε is a part of each row's J M⁻¹ Jᵀ.
     pub fn factor(
         &mut self,
         bodies: &[Velocity],
@@ -55,7 +73,7 @@ impl BodyFactor {
         (rows, pushes): (&[Rows], Option<&[[Block; 2]]>),
         epsilon: Real,
     ) {
-        self.order(bodies.len(), links, rows);
+        self.extend(links, rows);
         self.inverse_roots.clear();
         self.inverse_roots.extend(bodies.iter().map(|body| body.inverse().map(Real::sqrt)));
         self.links.clear();
@@ -73,11 +91,14 @@ impl BodyFactor {
         }
     }
 
-    /// Products of blocks that the factors take.
-    #[must_use]
-    pub fn work(&self) -> usize {
+    /// What the last factors took, in products of blocks, with the orders of elimination that were found since those before.
+    pub fn work(&mut self) -> Real {
         let filled = |column: usize| self.structure.below(column).len();
-        (0..self.structure.len()).map(|column| filled(column) * (filled(column) + 3) / 2).sum()
+        let products =
+            (0..self.structure.len()).map(|column| filled(column) * (filled(column) + 3) / 2);
+        let once = products.sum::<usize>() as Real;
+        let factors = if self.pushing { 2.0 } else { 1.0 };
+        once * (factors + ORDER * std::mem::take(&mut self.orders))
     }
 
     /// Solves J M⁻¹ Pᵀ λ + (Σ + ε) λ = b, once.
@@ -109,23 +130,23 @@ impl BodyFactor {
         }
     }
 
-    /// Takes another order where bodies are linked that are not yet.
-    fn order(&mut self, bodies: usize, links: &[Link], rows: &[Rows]) {
+    /// Takes another order where bodies bear on one another that are not linked in the one there is.
+    fn extend(&mut self, links: &[Link], rows: &[Rows]) {
         let bearing = || {
             links.iter().zip(rows).filter_map(|(link, rows)| match link {
                 [Some(a), Some(b)] if a != b && rows.on != [false; 3] => Some([*a, *b]),
                 _ => None,
             })
         };
-        let structure = &self.structure;
-        let fits = structure.bodies == bodies
-            && structure.len() == bodies
-            && bearing().all(|pair| {
-                let [a, b] = pair.map(|slot| structure.columns[slot as usize]);
-                structure.shared(a, b).is_some()
-            });
-        if !fits {
-            self.structure.analyse_edges(bodies, bearing());
+        let structure = &mut self.structure;
+        let known = |pair: [u32; 2]| {
+            structure.shared(pair.map(|slot| structure.columns[slot as usize])).is_some()
+        };
+        if !bearing().all(known) {
+            // All of them: what another order fills in differs.
+            self.edges.extend(bearing());
+            structure.analyse_edges(structure.len(), self.edges.iter().copied());
+            self.orders += 1.0;
         }
     }
 
@@ -161,7 +182,7 @@ impl BodyFactor {
             && a != b
         {
             // OK because the order is one of a graph in which these two bodies are linked.
-            scaled.shared = structure.shared(a, b).unwrap_or(usize::MAX);
+            scaled.shared = structure.shared([a, b]).unwrap_or(usize::MAX);
         }
         scaled
     }

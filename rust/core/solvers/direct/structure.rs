@@ -62,7 +62,7 @@ impl Structure {
     }
 
     /// The block below the diagonal that two different columns share, if it is filled.
-    pub(super) fn shared(&self, a: u32, b: u32) -> Option<usize> {
+    pub(super) fn shared(&self, [a, b]: [u32; 2]) -> Option<usize> {
         let below = self.below(a.min(b) as usize);
         let nth = self.rows[below.clone()].binary_search(&a.max(b)).ok()?;
         Some(below.start + nth)

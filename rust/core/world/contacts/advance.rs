@@ -16,6 +16,7 @@ use crate::forces::{Forces, Shown};
 use crate::islands::Islands;
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, perp};
 use crate::methods::Span;
+use crate::methods::contact_step::newton::Together;
 use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Watched};
 use crate::solvers::links::LinkSolver;
 use crate::world::joints::{index_of, is_smooth, keep, tie, tied};
@@ -41,6 +42,8 @@ pub(in crate::world) struct ContactScratch {
     pub bare: Vec<u32>,
     /// Solvers of the groups with joints, by the first of those: they know its graph.
     solvers: FxHashMap<u32, LinkSolver>,
+    /// Systems of all rows of the groups that need one, by their first bodies.
+    systems: FxHashMap<u32, Together>,
     pub(super) group: Group,
     /// Slot of each body in the group at work; valid where the mark is the group's.
     slots: Vec<(u32, u32)>,
@@ -109,6 +112,7 @@ impl ContactScratch {
         self.islands.clear();
         self.moved.clear();
         self.solvers.clear();
+        self.systems.clear();
     }
 }
 
@@ -194,6 +198,10 @@ impl World {
         if self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty()) {
             self.state.contacts.scale_impulses(span.h());
         }
+        let ContactScratch { islands, systems, .. } = &mut self.scratch.contacts;
+        if systems.len() > 2 * islands.len() + SPARE {
+            systems.clear();
+        }
         for k in 0..self.scratch.contacts.islands.len() {
             if !self.scratch.contacts.leaves(k) {
                 self.advance_group(k, span)?;
@@ -202,15 +210,25 @@ impl World {
         Ok(())
     }
 
-    /// Takes the solver that belongs to the group's joints, or a new one.
-    fn take_solver(group: &mut Group, solvers: &mut FxHashMap<u32, LinkSolver>) {
+    /// Takes the solvers that belong to the group, or new ones.
+    fn take_solver(
+        group: &mut Group,
+        (solvers, systems): (&mut FxHashMap<u32, LinkSolver>, &mut FxHashMap<u32, Together>),
+    ) {
+        group.together = None;
+        if let Some(first) = group.bodies.first().filter(|_| !systems.is_empty()) {
+            group.together = systems.remove(first);
+        }
         if let Some(first) = group.ties.list.first() {
             group.ties.solver = solvers.remove(&first.place).unwrap_or_default();
         }
     }
 
     pub(super) fn keep_solver(&mut self) {
-        let ContactScratch { group, solvers, .. } = &mut self.scratch.contacts;
+        let ContactScratch { group, solvers, systems, .. } = &mut self.scratch.contacts;
+        if let Some(system) = group.together.take() {
+            systems.insert(group.bodies[0], system);
+        }
         if let Some(first) = group.ties.list.first() {
             solvers.insert(first.place, std::mem::take(&mut group.ties.solver));
         }
@@ -231,6 +249,7 @@ impl World {
             mark,
             answers,
             solvers,
+            systems,
             ..
         } = &mut scratch.contacts;
         group.clear();
@@ -272,7 +291,7 @@ impl World {
             let block = Block::new(slots, &link.manifold, &touch, &memory);
             group.add_contact(block, link);
         }
-        Self::take_solver(group, solvers);
+        Self::take_solver(group, (solvers, systems));
     }
 
     pub(super) fn step_group(&mut self, span: Span) -> Result<Outcome> {
@@ -340,7 +359,7 @@ impl World {
             }
         }
         for (block, link) in group.blocks.iter().zip(&group.links) {
-            let memory = block.memory().scaled(contacts.substep / span.h());
+            let memory = block.memory(link.credit).scaled(contacts.substep / span.h());
             contacts.patches[link.place as usize].memory = memory;
         }
         *ledger += outcome.ledger;
@@ -351,6 +370,9 @@ impl World {
         report.residual = report.residual.max(outcome.residual);
     }
 }
+
+/// Systems of groups that are no more, which are kept until there are so many.
+const SPARE: usize = 16;
 
 /// What the contact step needs of a patch between two bodies beside its rows.
 fn link_of(
@@ -388,6 +410,7 @@ fn link_of(
         width,
         tangent_speed,
         watched,
+        credit: patch.memory.credit,
         ..Link::new(patch.manifold, place)
     };
     (touch, link)

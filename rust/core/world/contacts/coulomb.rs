@@ -6,6 +6,7 @@ use crate::constraints::contact::Block;
 use crate::math::{Real, vec2};
 use crate::methods::contact_step::Group;
 use crate::shapes::Shape;
+use crate::solvers::Solver;
 use crate::world::World;
 use proptest::prelude::*;
 
@@ -76,9 +77,11 @@ proptest! {
     #[test]
     fn every_contact_of_a_heap_obeys_signorini_and_coulomb(
         heap in heaps(), sticking in 0.1..0.9_f64, part in 0.5..=1.0_f64,
+        solver in prop::sample::select(Solver::ALL.map(|(_, solver)| solver).to_vec()),
     ) {
         let friction = Friction { sticking, sliding: sticking * part };
         let mut world = bin(&heap, friction);
+        world.set_solver(solver);
         for _ in 0..150 {
             world.step(DT).unwrap();
             let slack = 20.0 * world.report().residual + 1e-12;

@@ -53,6 +53,8 @@ impl Patch {
     /// A manifold as found, with the impulses of those points of the last step that have the same features.
     pub fn remembering(near: u32, manifold: Manifold, before: &[Self]) -> Self {
         let mut memory = Memory::NEW;
+        let credits = before.iter().map(|old| old.memory.credit);
+        memory.credit = credits.reduce(Real::min).unwrap_or(memory.credit);
         for old in before {
             let same =
                 |k: usize, j: usize| manifold.anchors[k].feature == old.manifold.anchors[j].feature;
