@@ -323,3 +323,27 @@ fn a_run_says_where_events_were_not_followed() {
         "{fallback:?}"
     );
 }
+
+/// After a run contacts say what they bear: the weight, and the friction that holds it on an incline.
+#[test]
+fn contacts_bear_the_weight_after_a_run() {
+    let slope: Real = 0.3;
+    let mut world = World::new(vec2(G * slope.sin(), -G * slope.cos())).unwrap();
+    add_ground(&mut world, (0.5, 0.0));
+    let position = vec2(0.0, 0.35);
+    let def = BodyDef {
+        position,
+        mass: Some(2.0),
+        surface: surface((0.5, 0.0)),
+        ..BodyDef::new(Shape::rectangle(1.0, 0.5).unwrap())
+    };
+    world.add_body(def).unwrap();
+    world.advance(1.0, TOLERANCE).unwrap();
+    let contacts = world.contacts();
+    let force: Vec2 = contacts.iter().map(culbuto::world::Contact::force).sum();
+    let weight = vec2(G * slope.sin(), -G * slope.cos()) * 2.0;
+    assert!((force + weight).norm() < 1e-9, "{contacts:?}");
+    // Steps go on from there.
+    world.step(1.0 / 60.0).unwrap();
+    assert!(world.bodies().twists[1].linear.norm() < 1e-9);
+}

@@ -1,8 +1,10 @@
 //! Time to a tolerance where bodies can meet: free motion while nothing is near, else steps that are each taken twice.
 
+use crate::collision::ProxyId;
 use crate::error::{Error, Result};
 use crate::math::{Pose, Real, Vec2};
 use crate::methods::Watch;
+use crate::methods::events::Bearing;
 use crate::world::contacts::ByEvents;
 use crate::world::{State, Trajectory, World};
 
@@ -35,6 +37,8 @@ struct Run<'t> {
     step: Real,
     /// Steps to be taken before events are tried again, and how many the next time.
     wait: [u32; 2],
+    /// What bears, where the last stretch went from event to event.
+    bearing: Option<Vec<([ProxyId; 2], Bearing)>>,
 }
 
 impl World {
@@ -63,6 +67,7 @@ impl World {
                 stretch: duration,
                 step: duration / 16.0,
                 wait: [0, 1],
+                bearing: None,
             };
             let mut steps = 0_usize;
             while run.passed < duration {
@@ -80,6 +85,7 @@ impl World {
                 world.step_between(&mut run)?;
             }
             run.hand_out(world);
+            world.see_what_bears(duration, run.bearing.take())?;
             if world.notices() {
                 world.notice();
             }
@@ -90,6 +96,21 @@ impl World {
         })
     }
 
+    /// Manifolds as they are at the end of a run from event to event, with what they bear.
+    fn see_what_bears(
+        &mut self,
+        duration: Real,
+        bearing: Option<Vec<([ProxyId; 2], Bearing)>>,
+    ) -> Result<()> {
+        let Some(bearing) = bearing.filter(|_| self.meets()) else { return Ok(()) };
+        self.state.contacts.spread.clear();
+        self.detect(0.0)?;
+        // Impulses are those of a substep; of which does not matter.
+        let substep = duration / Real::from(self.state.settings.substeps);
+        self.state.contacts.remember(&bearing, substep);
+        Ok(())
+    }
+
     /// One step that is taken twice, up to the next sample.
     fn step_between(&mut self, run: &mut Run<'_>) -> Result<()> {
         run.hand_out(self);
@@ -97,6 +118,7 @@ impl World {
         let times = &run.trajectory.times;
         let stop = times.get(run.next).copied().unwrap_or(run.duration).min(run.duration);
         let dt = run.step.min(stop - run.passed);
+        run.bearing = None;
         let (taken, proposed) = self.step_doubled(dt, run.tolerance)?;
         self.settle_joints()?;
         self.planned();
@@ -136,6 +158,7 @@ impl World {
                 run.stretch = 2.0 * dt;
                 run.next = run.trajectory.times.partition_point(|t| *t <= run.passed);
                 run.wait = [0, 1];
+                run.bearing = Some(booked.bearing);
                 return Ok(true);
             }
             self.go_back(&before);

@@ -64,8 +64,23 @@ pub struct Outcome {
     pub events: u64,
     /// Bodies (slots) that got farther than was looked, and how far (m); the run ended there.
     pub thrown: Vec<(u32, Real)>,
+    /// What bears at the end.
+    pub bearing: Vec<Bearing>,
     /// When (s) and why events could not go on; the run ended there.
     pub gave_up: Option<(Real, &'static str)>,
+}
+
+/// Forces of a contact.
+#[derive(Clone, Copy, Debug)]
+pub struct Bearing {
+    /// Place of the pair in the island.
+    pub pair: u32,
+    /// Features of the points; of one alone twice the same.
+    pub features: [u32; 2],
+    /// Of the points along the normal, and along the tangent (N).
+    pub force: [Real; 3],
+    /// Whether the surfaces slide.
+    pub slides: bool,
 }
 
 /// Events of one run.
@@ -123,6 +138,7 @@ pub fn run(
         }
     }
     run.hand_out_rest(sink);
+    run.note_bearing()?;
     Ok(run.outcome)
 }
 
@@ -473,6 +489,23 @@ impl Run<'_, '_, '_, '_> {
             }
             Event::Leaves(..) => {}
         }
+    }
+
+    /// Notes the forces of the contacts at the end.
+    fn note_bearing(&mut self) -> Result<()> {
+        if !self.system.modes.as_ref().is_some_and(Modes::bears) {
+            return Ok(());
+        }
+        self.accelerations()?;
+        let contacts = self.system.modes.iter().flat_map(|modes| &modes.contacts);
+        let bearing = contacts.filter(|contact| contact.bears()).map(|contact| Bearing {
+            pair: contact.pair,
+            features: [0, 1].map(|p| contact.points[p.min(contact.count - 1)].feature),
+            force: contact.force,
+            slides: matches!(contact.slip, Slip::Slides(_)),
+        });
+        self.outcome.bearing = bearing.collect();
+        Ok(())
     }
 
     /// Notes which bodies got farther than was looked.

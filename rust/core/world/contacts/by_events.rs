@@ -4,11 +4,12 @@ use super::events::ContactEvent;
 use super::near::Kind;
 use super::{ContactScratch, Contacts, FAR, MARGIN};
 use crate::body::Bodies;
-use crate::collision::Geometry;
+use crate::collision::{Geometry, ProxyId};
+use crate::constraints::contact::Memory;
 use crate::error::Result;
 use crate::forces::has_resistance;
 use crate::math::{Pose, Real, Twist, Vec2};
-use crate::methods::events::{Island, Outcome, Pair, Struck, run};
+use crate::methods::events::{Bearing, Island, Outcome, Pair, Struck, run};
 use crate::methods::{Sink, Span, Watch};
 use crate::world::joints::{JoinedGroup, is_smooth};
 use crate::world::{Trajectory, World};
@@ -22,6 +23,8 @@ pub(in crate::world) struct ByEvents {
     pub gave_up: Option<(Real, &'static str)>,
     /// Events located.
     pub events: u64,
+    /// What bears at the end, and between which colliders.
+    pub bearing: Vec<([ProxyId; 2], Bearing)>,
 }
 
 /// Bodies of a group that is moved from event to event: beyond, the contact step is cheaper.
@@ -152,6 +155,9 @@ impl World {
         let thrown = outcome.thrown.iter();
         booked.thrown.extend(thrown.map(|(slot, way)| (members[*slot as usize], *way)));
         booked.gave_up = booked.gave_up.or(outcome.gave_up);
+        let bearing = outcome.bearing.iter();
+        let near = |bearing: &Bearing| pairs[bearing.pair as usize].0 as usize;
+        booked.bearing.extend(bearing.map(|b| (contacts.near[near(b)].proxies, *b)));
     }
 }
 
@@ -205,6 +211,32 @@ impl Contacts {
             Pair { slots: *slots, colliders, touch: near.touch, width, slack }
         };
         pairs.iter().map(pair).collect()
+    }
+
+    /// Gives the patches the impulses that forces have over a substep: what contacts bear can be read, and steps that follow begin
+    /// with it.
+    pub(in crate::world) fn remember(
+        &mut self,
+        bearing: &[([ProxyId; 2], Bearing)],
+        substep: Real,
+    ) {
+        if self.substep <= 0.0 {
+            self.substep = substep;
+        }
+        let Self { near, patches, substep, .. } = self;
+        for patch in patches {
+            patch.memory = Memory::NEW;
+            let proxies = near[patch.near as usize].proxies;
+            for (_, b) in bearing.iter().filter(|(pair, _)| *pair == proxies) {
+                for k in 0..patch.manifold.count {
+                    let feature = patch.manifold.anchors[k].feature;
+                    let Some(p) = b.features.iter().position(|f| *f == feature) else { continue };
+                    patch.memory.impulse[k] = b.force[p] * *substep;
+                    patch.memory.impulse[2] = b.force[2] * *substep;
+                    patch.memory.sliding = b.slides;
+                }
+            }
+        }
     }
 
     fn hit_of(&self, (near, hit): (u32, &Struck), bodies: &Bodies) -> ContactEvent {
