@@ -7,7 +7,8 @@
 
 use super::impact::Still;
 use super::lcp;
-use super::modes::{Contact, Modes, Responses, Slip};
+use super::modes::{Contact, Modes, Slip};
+use super::rows::Responses;
 use crate::collision::Frame;
 use crate::math::{Pose, Real, Twist};
 

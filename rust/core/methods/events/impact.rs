@@ -3,7 +3,8 @@
 //! (Moreau 1988).
 
 use super::lcp;
-use super::modes::{Contact, Modes, Responses};
+use super::modes::{Contact, Modes};
+use super::rows::Responses;
 use crate::body::ImpactLaw;
 use crate::collision::{Anchor, Frame, Manifold, Normal};
 use crate::constraints::contact::{Block, Memory, Touch};

@@ -6,6 +6,7 @@
 
 use super::dense::Dense;
 use super::point::{Point, Seen};
+use super::rows::{Line, Origin, Push, ROUNDING, Responses, Terms, combined, parts};
 use crate::body::Mass;
 use crate::collision::Frame;
 use crate::constraints::contact::Touch;
@@ -43,33 +44,6 @@ pub struct Contact {
     pub force: [Real; 3],
 }
 
-/// A row of the system.
-#[derive(Clone, Copy, Debug)]
-pub struct Line {
-    slots: [Option<u32>; 2],
-    /// J.
-    jacobian: [[Real; 3]; 2],
-    /// Direction in which its force acts: J, or with the friction of what slides.
-    push: [[Real; 3]; 2],
-    /// J̇v.
-    bias: Real,
-    /// C or gap, and its rounding; 0 for what has none.
-    position: Real,
-    rounding: Real,
-    /// The speed it asks for.
-    speed: Real,
-    origin: Origin,
-    scale: Real,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Origin {
-    /// Tie and row among those it holds.
-    Joint(usize, usize),
-    /// Contact and point; 2: the tangent.
-    Contact(usize, usize),
-}
-
 /// The contacts and joints of an island, in their modes.
 #[derive(Clone, Debug, Default)]
 pub struct Modes {
@@ -85,9 +59,6 @@ pub struct Modes {
     /// Σ|terms| of each acceleration: what is below its rounding is none.
     terms: Vec<[Real; 3]>,
 }
-
-/// Values up to so many times their rounding are rounding.
-const ROUNDING: Real = 4.0 * Real::EPSILON;
 
 /// Accelerations and velocities below this part of the terms they are made of are rounding.
 const NOTHING: Real = 32.0 * Real::EPSILON;
@@ -337,45 +308,6 @@ impl Modes {
     }
 }
 
-/// Rows of all contacts, three each: two points and the tangent, and what bodies do under a unit impulse along each.
-pub struct Responses {
-    rows: Vec<Line>,
-    moves: Vec<Vec<Twist>>,
-}
-
-impl Responses {
-    /// J M⁻¹ Jᵀ of two rows, joints holding.
-    #[must_use]
-    pub fn coupling(&self, i: usize, j: usize) -> Real {
-        self.rows[i].along(&self.moves[j])
-    }
-
-    /// J·v of a row.
-    #[must_use]
-    pub fn along(&self, i: usize, twists: &[Twist]) -> Real {
-        self.rows[i].along(twists)
-    }
-
-    /// J̇v of a row.
-    #[must_use]
-    pub fn bias(&self, i: usize) -> Real {
-        self.rows[i].bias
-    }
-
-    /// Gives the bodies an impulse along a row.
-    pub fn push(&self, i: usize, impulse: Real, twists: &mut [Twist]) {
-        for (twist, change) in twists.iter_mut().zip(&self.moves[i]) {
-            *twist += Twist::new(change.linear * impulse, change.angular * impulse);
-        }
-    }
-
-    /// Speeds (m/s) of which what a row says is a difference.
-    #[must_use]
-    pub fn speeds(&self, i: usize, twists: &[Twist]) -> Real {
-        self.rows[i].speeds(twists)
-    }
-}
-
 impl Contact {
     /// Whether a point bears.
     #[must_use]
@@ -453,96 +385,4 @@ impl Contact {
         let dissipated = -self.force[2] * self.slip_speed(frames, twists);
         Ledger { work, dissipated, ..Ledger::default() }
     }
-}
-
-impl Line {
-    fn along(&self, twists: &[Twist]) -> Real {
-        self.sum(twists, |jacobian, v| jacobian * v)
-    }
-
-    fn speeds(&self, twists: &[Twist]) -> Real {
-        self.sum(twists, |jacobian, v| (jacobian * v).abs())
-    }
-
-    fn speed_rounding(&self, twists: &[Twist]) -> Real {
-        ROUNDING * (self.speeds(twists) + self.speed.abs())
-    }
-
-    fn sum(&self, twists: &[Twist], of: impl Fn(Real, Real) -> Real) -> Real {
-        let side = |(slot, jacobian): (&Option<u32>, &[Real; 3])| {
-            slot.map_or(0.0, |slot| {
-                let v = parts(&twists[slot as usize]);
-                (0..3).map(|c| of(jacobian[c], v[c])).sum()
-            })
-        };
-        self.slots.iter().zip(&self.jacobian).map(side).sum()
-    }
-
-    /// J M⁻¹ pᵀ with the direction `push` of another row.
-    fn coupled(&self, push: &[[Real; 3]; 2], other: &Self, inverse: &[[Real; 3]]) -> Real {
-        let mut sum = 0.0;
-        for (slot, jacobian) in self.slots.iter().zip(&self.jacobian) {
-            for (theirs, push) in other.slots.iter().zip(push) {
-                if let (Some(slot), true) = (slot, slot == theirs) {
-                    let inverse = &inverse[*slot as usize];
-                    sum += (0..3).map(|c| jacobian[c] * inverse[c] * push[c]).sum::<Real>();
-                }
-            }
-        }
-        sum
-    }
-}
-
-/// What takes forces or impulses along rows.
-trait Push {
-    /// Adds M⁻¹ pᵀ x for a direction p.
-    fn push_along(&mut self, line: &Line, push: &[[Real; 3]; 2], x: (Real, &[[Real; 3]]));
-
-    /// Adds M⁻¹ Jᵀ x.
-    fn push_all(&mut self, lines: &[Line], values: &[Real], inverse: &[[Real; 3]]);
-}
-
-impl Push for [Twist] {
-    fn push_along(
-        &mut self,
-        line: &Line,
-        push: &[[Real; 3]; 2],
-        (x, inverse): (Real, &[[Real; 3]]),
-    ) {
-        for (slot, push) in line.slots.iter().zip(push) {
-            let Some(slot) = slot.map(|slot| slot as usize) else { continue };
-            let change = |c: usize| inverse[slot][c] * push[c] * x;
-            self[slot] += Twist::new(vec2(change(0), change(1)), change(2));
-        }
-    }
-
-    fn push_all(&mut self, lines: &[Line], values: &[Real], inverse: &[[Real; 3]]) {
-        for (line, x) in lines.iter().zip(values) {
-            self.push_along(line, &line.jacobian, (*x, inverse));
-        }
-    }
-}
-
-trait Terms {
-    /// Adds |M⁻¹ pᵀ x|.
-    fn add(&mut self, line: &Line, push: &[[Real; 3]; 2], x: (Real, &[[Real; 3]]));
-}
-
-impl Terms for Vec<[Real; 3]> {
-    fn add(&mut self, line: &Line, push: &[[Real; 3]; 2], (x, inverse): (Real, &[[Real; 3]])) {
-        for (slot, push) in line.slots.iter().zip(push) {
-            let Some(slot) = slot.map(|slot| slot as usize) else { continue };
-            for c in 0..3 {
-                self[slot][c] += (inverse[slot][c] * push[c] * x).abs();
-            }
-        }
-    }
-}
-
-fn parts(twist: &Twist) -> [Real; 3] {
-    [twist.linear.x, twist.linear.y, twist.angular]
-}
-
-fn combined(a: &[[Real; 3]; 2], b: &[[Real; 3]; 2], by: Real) -> [[Real; 3]; 2] {
-    [0, 1].map(|side| [0, 1, 2].map(|c| a[side][c] + by * b[side][c]))
 }
