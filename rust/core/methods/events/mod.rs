@@ -3,7 +3,7 @@
 //! Between events every contact keeps its mode (it bears or not, sticks or slides) and the motion is smooth: a parabola where
 //! nothing bears and forces are constant, else DOP853 on accelerations in which the rows of contacts and joints hold
 //! exactly. Events are located on the path: shapes meet (impacts, by the law of impact), a contact lets go, breaks
-//! away, comes to rest. Then modes are chosen anew ([`choose`]). Bounces that have become too low to matter are summed: they end in a
+//! away, comes to rest. Then modes are chosen anew (`choose.rs`). Bounces that have become too low to matter are summed: they end in a
 //! plastic impact, which takes and gives in all what they would have.
 //!
 //! Pfeiffer and Glocker, "Multibody Dynamics with Unilateral Contacts" (1996).
