@@ -8,7 +8,7 @@ use proptest::prelude::*;
 use crate::common::{DT, Form, Thrown, bin, fewer, laws, rush, weightless};
 
 /// Σm|v| and Σ(m|r||v| + I|ω|): what momenta are measured by.
-fn scales(world: &World) -> (Real, Real) {
+pub fn scales(world: &World) -> (Real, Real) {
     let bodies = world.bodies();
     let columns = bodies.poses.iter().zip(&bodies.twists).zip(&bodies.masses);
     let of =
@@ -21,7 +21,7 @@ fn scales(world: &World) -> (Real, Real) {
 
 /// Steps a world, and looks at its energy after each step. Of the energy there ever was, the balance stays to 1e-10, and what
 /// contact took never comes back, in no step, but for rounding: some hundred operations of 1e-16 a step.
-fn energy_is_only_taken_and_booked(world: &mut World, steps: u32) -> Result<(), TestCaseError> {
+pub fn energy_is_only_taken_and_booked(world: &mut World, steps: u32) -> Result<(), TestCaseError> {
     let start = world.energy().unwrap();
     let scale = start.kinetic + falls(world);
     let mut dissipated = start.dissipated;
