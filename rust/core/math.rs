@@ -138,20 +138,32 @@ impl Rot {
         if angle == 0.0 {
             return self;
         }
-        // Below 1/8 the series are right to the last digit with these terms: 8^-13/13! < 2^-70.
-        const SMALL: Real = 0.125;
-        let turn = if angle.abs() < SMALL {
-            let z = angle * angle;
-            let sin = 1.0
-                - z / 6.0
-                    * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1.0 - z / 110.0))));
-            let cos = 1.0
-                - z / 2.0
-                    * (1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1.0 - z / 90.0))));
-            Self { cos, sin: angle * sin }
-        } else {
-            Self::new(angle)
-        };
+        if Self::is_little(angle) {
+            return self.turned_little(angle);
+        }
+        self.after(Self::new(angle))
+    }
+
+    /// Whether [`Rot::turned_little`] is right.
+    #[inline]
+    pub(crate) fn is_little(angle: Real) -> bool {
+        angle.abs() < 0.125
+    }
+
+    /// This rotation after a further one by a little angle, by its series. Below 1/8 they are right to the last digit
+    /// with these terms: 8^-13/13! < 2^-70.
+    #[inline]
+    pub(crate) fn turned_little(self, angle: Real) -> Self {
+        let z = angle * angle;
+        let sin = 1.0
+            - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1.0 - z / 110.0))));
+        let cos = 1.0
+            - z / 2.0 * (1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1.0 - z / 90.0))));
+        self.after(Self { cos, sin: angle * sin })
+    }
+
+    #[inline]
+    fn after(self, turn: Self) -> Self {
         Self {
             cos: self.cos * turn.cos - self.sin * turn.sin,
             sin: self.sin * turn.cos + self.cos * turn.sin,

@@ -332,7 +332,7 @@ fn inverse_of_two(p: Real, c: Real, q: Real) -> Option<[Real; 3]> {
 }
 
 /// A determinant below this part of the diagonal's product says that rows depend on one another.
-const SINGULAR: Real = 1e-10;
+pub const SINGULAR: Real = 1e-10;
 
 fn inverse_of_three(r: &[Real; 6]) -> [Real; 6] {
     let [a, b, c, d, e, f] = *r; // 00, 11, 01, 0t, 1t, tt

@@ -21,10 +21,15 @@ pub fn solve(block: &mut Block, [a, b]: [&mut Velocity; 2]) -> Real {
     if idle {
         return 0.0;
     }
-    let impulse = impulses(block, &error);
+    take(block, &error, [a, b])
+}
+
+/// Solves a block that has something to do, whose velocities are so far beyond the targets.
+pub(super) fn take(block: &mut Block, error: &[Real; 3], bodies: [&mut Velocity; 2]) -> Real {
+    let impulse = impulses(block, error);
     let change = [0, 1, 2].map(|k| impulse[k] - block.impulse[k]);
     block.impulse = impulse;
-    block.push([a, b], change);
+    block.push(bodies, change);
     let [k00, k11, _, _, _, ktt] = block.response;
     (change[0] * k00).abs().max((change[1] * k11).abs()).max((change[2] * ktt).abs())
 }

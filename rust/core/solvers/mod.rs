@@ -2,12 +2,14 @@
 
 mod block;
 pub mod direct;
+pub mod lanes;
 pub mod links;
 pub mod newton;
 mod relaxed;
 pub mod sweep;
 
 pub use block::impulses as block_impulses;
+pub use lanes::Lanes;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

@@ -2,6 +2,7 @@
 //! change by no more than is asked or the sweeps are used up.
 
 use super::block;
+use super::lanes::Lanes;
 use crate::constraints::Velocity;
 use crate::constraints::contact::Block;
 use crate::math::Real;
@@ -32,6 +33,34 @@ pub fn warm_start(velocities: &mut [Velocity], blocks: &mut [Block]) {
             block.push(pair(velocities, block.bodies), impulse);
         }
     }
+}
+
+/// Sweeps over the blocks, eight at a time where that pays, to the same bits; returns the number of sweeps and the largest
+/// change in the last one (m/s).
+pub fn solve_many(
+    velocities: &mut [Velocity],
+    blocks: &mut [Block],
+    lanes: &mut Lanes,
+    budget: Budget,
+) -> (u32, Real) {
+    if lanes.pay(velocities, blocks) {
+        solve_packed(velocities, blocks, lanes, budget)
+    } else {
+        solve(velocities, blocks, budget)
+    }
+}
+
+/// The same over blocks that are packed.
+pub(super) fn solve_packed(
+    velocities: &mut [Velocity],
+    blocks: &mut [Block],
+    lanes: &mut Lanes,
+    budget: Budget,
+) -> (u32, Real) {
+    lanes.load(velocities, blocks);
+    let result = lanes.solve(blocks, budget);
+    lanes.store(velocities, blocks);
+    result
 }
 
 /// Sweeps over the blocks; returns the number of sweeps and the largest change in the last one (m/s).

@@ -3,10 +3,12 @@
 use super::impacts::Watch;
 use super::joints::Ties;
 use super::newton::Together;
+use super::wide::Wide;
 use crate::collision::Manifold;
 use crate::constraints::contact::Block;
 use crate::constraints::{Place, Velocity};
 use crate::math::{Real, Twist, Vec2};
+use crate::solvers::Lanes;
 
 /// m (kg) and I (kg·m²), for energies; 0 of a body whose motion is given.
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,10 +63,8 @@ pub struct Link {
     pub resting: [Real; 2],
     /// Whether arrivals are looked for.
     pub watched: Watched,
-    /// Where a swift contact is going to meet.
-    pub found: Manifold,
-    /// The manifold that the remembered impulses are of.
-    pub loaded: Manifold,
+    /// Of a contact that is watched, its place among those.
+    pub number: u32,
     /// It met in this substep.
     pub met: bool,
     /// Its rows are placed where its bodies are after the middle of the substep.
@@ -97,8 +97,7 @@ impl Link {
             passes: [false; 2],
             resting: [0.0; 2],
             watched: Watched::No,
-            found: manifold,
-            loaded: manifold,
+            number: 0,
             met: false,
             late: false,
             apart_now: false,
@@ -169,6 +168,10 @@ pub struct Group {
     pub links: Vec<Link>,
     /// The joints.
     pub ties: Ties,
+    /// The rows in packets.
+    pub(super) lanes: Lanes,
+    /// The rest of the contacts in packets.
+    pub(super) wide: Wide,
     /// Some surface is driven: a kinematic body or a conveyor.
     pub driven: bool,
     /// Solves all rows at once.
@@ -181,6 +184,10 @@ pub struct Group {
     pub(super) free: Vec<Twist>,
     /// Where impacts may come.
     pub(super) watch: Watch,
+    /// Of each contact that is watched, where it is going to meet if it is swift, and the manifold that the remembered
+    /// impulses are of.
+    pub(super) found: Vec<Manifold>,
+    pub(super) loaded: Vec<Manifold>,
 }
 
 impl Group {
@@ -196,8 +203,24 @@ impl Group {
         self.blocks.clear();
         self.links.clear();
         self.ties.clear();
+        self.lanes.clear();
+        self.wide.on = false;
         self.driven = false;
         self.watch.clear();
+        self.found.clear();
+        self.loaded.clear();
+    }
+
+    /// Solves contacts one by one whatever pays, to compare.
+    #[cfg(test)]
+    pub fn one_by_one(&mut self) {
+        self.lanes.off = true;
+    }
+
+    /// How often a group went by packets.
+    #[cfg(test)]
+    pub fn packings(&self) -> u32 {
+        self.wide.packings
     }
 
     /// Notes which bodies have got beyond what was foreseen when what they can meet was looked for, and how far (m).
@@ -240,9 +263,12 @@ impl Group {
     }
 
     /// Adds a contact, watched where it bounces or is swift.
-    pub fn add_contact(&mut self, block: Block, link: Link) {
+    pub fn add_contact(&mut self, block: Block, mut link: Link) {
         if link.watched != Watched::No {
+            link.number = self.watch.blocks.len() as u32;
             self.watch.blocks.push(self.blocks.len() as u32);
+            self.found.push(link.manifold);
+            self.loaded.push(link.manifold);
         }
         self.blocks.push(block);
         self.links.push(link);

@@ -125,7 +125,8 @@ pub fn resolve(
     for k in &watch.blocks {
         set_resting(group, *k as usize, h);
         let link = &mut group.links[*k as usize];
-        (link.met, link.loaded) = (false, link.manifold);
+        link.met = false;
+        group.loaded[link.number as usize] = link.manifold;
     }
     strike_all(group, &mut watch, h / 2.0, law, (around, outcome));
     for k in &watch.blocks {
@@ -207,7 +208,7 @@ fn look_again(group: &mut Group, watch: &Watch, k: usize, around: &dyn Surroundi
     }
     let block = &mut group.blocks[k];
     block.count = link.manifold.count as u8;
-    remember(block, &link.loaded, &link.manifold);
+    remember(block, &group.loaded[link.number as usize], &link.manifold);
     super::place_block(group, k, now);
 }
 
@@ -256,7 +257,7 @@ fn next_event(
     let arrival = if group.links[k].watched == Watched::Swift {
         let pair = pair(group, k, watch.after_rows);
         let (arrival, manifold) = pair.first_meeting([from, to], around)?;
-        group.links[k].found = manifold;
+        group.found[group.links[k].number as usize] = manifold;
         arrival
     } else if watch.after_rows {
         return None;
@@ -290,7 +291,8 @@ fn strike(
     let (k, kicked) = (event.block as usize, watch.after_rows);
     if group.links[k].watched == Watched::Swift {
         let link = &mut group.links[k];
-        (link.manifold, link.met, link.apart_now) = (link.found, true, false);
+        link.manifold = group.found[link.number as usize];
+        (link.met, link.apart_now) = (true, false);
     }
     let (link, time) = (group.links[k], event.time);
     let joined = group.ties.joins(&group.blocks[k]);

@@ -17,6 +17,7 @@ mod path;
 mod project;
 mod purse;
 mod settle;
+mod wide;
 
 use crate::body::ImpactLaw;
 use crate::collision::{Manifold, Sweep};
@@ -98,11 +99,18 @@ pub fn run(
     let mut outcome = Outcome::default();
     let h = span.h();
     joints::start(group);
+    if settings.solver == Solver::Sweep {
+        wide::start(group);
+    }
     for k in 0..span.substeps {
         joints::remember(group);
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         around.accelerate((span.time(k) + h / 2.0, h), group)?;
-        place_blocks(group);
+        if group.wide.on {
+            wide::place(group, h);
+        } else {
+            place_blocks(group);
+        }
         joints::place(group);
         kick(group, h / 2.0);
         group.middle = span.time(k) + h / 2.0;
@@ -122,6 +130,9 @@ pub fn run(
         if !group.watch.blocks.is_empty() {
             group.note_thrown();
         }
+    }
+    if group.wide.on {
+        wide::finish(group);
     }
     Ok(outcome)
 }
@@ -181,9 +192,43 @@ fn kick(group: &mut Group, h: Real) {
 
 /// Contact and friction rows on the velocities after the kicks.
 fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outcome) {
-    let Group { velocities, places, blocks, links, free, .. } = group;
-    free.clear();
-    free.extend(velocities.iter().map(|velocity| velocity.twist));
+    group.free.clear();
+    group.free.extend(group.velocities.iter().map(|velocity| velocity.twist));
+    let fastest = if group.wide.on {
+        group.lanes.take_velocities(&group.velocities);
+        group.lanes.warm_start();
+        group.wide.fastest
+    } else {
+        prepare_rows(group, h)
+    };
+    joints::prepare(group, h);
+    let most =
+        settings.sweeps.max(SMALL / (group.blocks.len() as u32).max(1)).min(5 * settings.sweeps);
+    let budget = Budget { tolerance: CALM * fastest, most };
+    let mut work = settle::settle(group, (h, budget), settings.solver, outcome);
+    if !group.ties.is_empty() {
+        work.gain -= joints::book(group, h, &mut outcome.ledger);
+    } else if work.gain > work.rounding {
+        work = settle::weaken(group, &work, outcome);
+    }
+    outcome.ledger.work += work.given;
+    outcome.ledger.dissipated -= work.gain;
+    if group.wide.on {
+        wide::pass(group);
+        return;
+    }
+    for (block, link) in group.blocks.iter().zip(&mut group.links) {
+        link.passed += block.impulse[0] + block.impulse[1];
+    }
+    if !group.watch.blocks.is_empty() {
+        project::turn_back_late(group, h, outcome);
+    }
+}
+
+/// Targets and responses of the rows, and the impulses they remember. Returns the largest normal velocity that the kick
+/// of the substep gives.
+fn prepare_rows(group: &mut Group, h: Real) -> Real {
+    let Group { velocities, places, blocks, links, .. } = group;
     let mut fastest: Real = 0.0;
     for (block, link) in blocks.iter_mut().zip(&*links) {
         let [a, b] = block.bodies.map(|slot| slot as usize);
@@ -201,24 +246,7 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
         fastest = fastest.max(kick_along(block, [&places[a], &places[b]], h));
     }
     sweep::warm_start(velocities, blocks);
-    joints::prepare(group, h);
-    let most =
-        settings.sweeps.max(SMALL / (group.blocks.len() as u32).max(1)).min(5 * settings.sweeps);
-    let budget = Budget { tolerance: CALM * fastest, most };
-    let mut work = settle::settle(group, (h, budget), settings.solver, outcome);
-    if !group.ties.is_empty() {
-        work.gain -= joints::book(group, h, &mut outcome.ledger);
-    } else if work.gain > work.rounding {
-        work = settle::weaken(group, &work, outcome);
-    }
-    outcome.ledger.work += work.given;
-    outcome.ledger.dissipated -= work.gain;
-    for (block, link) in group.blocks.iter().zip(&mut group.links) {
-        link.passed += block.impulse[0] + block.impulse[1];
-    }
-    if !group.watch.blocks.is_empty() {
-        project::turn_back_late(group, h, outcome);
-    }
+    fastest
 }
 
 /// Part of the substep's kick to which the velocities of the rows must settle.

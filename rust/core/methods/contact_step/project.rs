@@ -4,15 +4,15 @@
 //! Moving bodies carries their momenta to other lines; the two that are parted are then turned back together, so that
 //! angular momentum stays.
 
-use super::{Group, Outcome};
+use super::{Group, Outcome, wide};
 use crate::constraints::contact::{Block, moved};
 use crate::constraints::{Place, Velocity};
 use crate::math::{Real, Twist, cross, perp};
 
 /// Overlap that is left alone, as a part of the smaller width: contacts stay closed and calm.
-const SLOP: Real = 5e-4;
+pub const SLOP: Real = 5e-4;
 /// Part of the rest that one pass removes.
-const PART: Real = 0.3;
+pub const PART: Real = 0.3;
 /// Most that a pass removes, as a part of the width.
 pub const MOST: Real = 0.05;
 /// Passes a substep.
@@ -20,16 +20,24 @@ const PASSES: usize = 2;
 
 /// Moves bodies apart, and books the work that takes against the forces.
 pub fn apart(group: &mut Group, h: Real, outcome: &mut Outcome) {
+    if group.wide.on {
+        wide::take_bodies(group);
+    }
     for pass in 0..PASSES {
-        let mut any = false;
-        for k in 0..group.blocks.len() {
-            if pass > 0 || may_overlap(group, k, h) {
-                any |= part_block(group, (k, h), outcome);
-            }
-        }
+        let any = if group.wide.on {
+            wide::part(group, (pass, h), outcome)
+        } else {
+            (0..group.blocks.len()).fold(false, |any, k| {
+                let overlaps = pass > 0 || may_overlap(group, k, h);
+                any | (overlaps && part_block(group, (k, h), outcome))
+            })
+        };
         if !any {
             break;
         }
+    }
+    if group.wide.on {
+        wide::give_bodies(group);
     }
 }
 

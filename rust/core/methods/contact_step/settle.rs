@@ -1,7 +1,7 @@
 //! Rows swept until they settle and give no energy.
 
 use super::group::RowWork;
-use super::{Group, Outcome, joints, newton, project, purse};
+use super::{Group, Outcome, joints, newton, project, purse, wide};
 use crate::constraints::Velocity;
 use crate::constraints::contact::Block;
 use crate::math::{Real, Twist};
@@ -14,12 +14,16 @@ const MOST_ROUNDS: u32 = 20;
 /// Rounds in which all rows may be solved at once: before targets are limited, and after.
 const SOLVED: u32 = 2;
 
+/// Limited rows that would not give as little after so many rounds more, at the rate of the last one, are swept no further: in
+/// large heaps that are not settled a round takes a tenth of it, and weakening takes the rest at once.
+const HOPE: Real = 2.0;
+
 /// Energy, as a part of that of the change of velocities, that is taken back by weakening all rows alike.
 const LITTLE: Real = 1e-3;
 
 /// Sweeps until the velocities settle or the budget is used up, and on while what they lack would bring bodies farther into one
 /// another than a pass of [`project`] brings them out. Where the rows give more than a little energy, what they ask for is
-/// limited to what gives none, and they are swept on as well.
+/// limited to what gives none, and they are swept on as well, as long as that helps.
 pub fn settle(
     group: &mut Group,
     (h, budget): (Real, Budget),
@@ -28,6 +32,7 @@ pub fn settle(
 ) -> RowWork {
     let width = group.links.iter().map(|link| link.width).fold(0.0, Real::max);
     let mut limited = false;
+    let mut before = Real::INFINITY;
     for round in 0.. {
         let (sweeps, residual) = match solver {
             _ if round >= SOLVED || group.blocks.is_empty() => sweep(group, budget),
@@ -36,18 +41,29 @@ pub fn settle(
             Solver::Auto => purse::solve(group, budget, outcome),
         };
         outcome.sweeps += u64::from(sweeps);
+        if group.wide.on && group.driven {
+            wide::give_driven(group);
+        }
         let work = group.row_work(h);
         let gives = work.gain > LITTLE * work.changed;
         let lacks = residual * h > project::MOST * width;
         let settled = residual <= budget.tolerance && (limited || !gives);
-        let last = round == MOST_ROUNDS || !group.ties.is_empty();
+        let part = work.gain / work.changed;
+        let idle = limited && !lacks && HOPE * (before - part) < part;
+        let last = round == MOST_ROUNDS || !group.ties.is_empty() || idle;
         if last || settled || !(gives || lacks) {
             outcome.residual = outcome.residual.max(residual);
             return work;
         }
         if gives && !limited {
-            limit_targets(group, h);
+            if group.wide.on {
+                wide::limit_targets(group, h);
+            } else {
+                limit_targets(group, h);
+            }
             limited = true;
+        } else {
+            before = part;
         }
     }
     unreachable!("the last round returns")
@@ -68,9 +84,14 @@ fn solve_all(
 }
 
 pub(super) fn sweep(group: &mut Group, budget: Budget) -> (u32, Real) {
-    let Group { velocities, blocks, ties, .. } = group;
+    let Group { velocities, blocks, lanes, ties, wide, .. } = group;
+    if wide.on {
+        let result = lanes.solve(blocks, budget);
+        lanes.give_velocities(velocities);
+        return result;
+    }
     if ties.is_empty() {
-        sweep::solve(velocities, blocks, budget)
+        sweep::solve_many(velocities, blocks, lanes, budget)
     } else {
         alternate(ties, (velocities, blocks), budget)
     }
@@ -131,6 +152,9 @@ pub fn weaken(group: &mut Group, work: &RowWork, outcome: &mut Outcome) -> RowWo
     for block in blocks {
         block.impulse.iter_mut().for_each(|impulse| *impulse *= part);
         block.rolling *= part;
+    }
+    if group.wide.on {
+        wide::weaken(group, part);
     }
     let gain = part * (work.gain + (part - 1.0) * work.changed);
     RowWork { gain, given: part * work.given, ..*work }

@@ -481,10 +481,13 @@ fn moves_far(
     let turn = a.angular.abs() * colliders[0].reach + b.angular.abs() * colliders[1].reach;
     let speed = b.linear - a.linear;
     let way = speed.norm() * h;
+    if way + turn * h <= length {
+        return false;
+    }
     let (normal, on_face): (Vec2, fn(&Anchor) -> Vec2) = match manifold.normal {
         Normal::OnA(normal) => (normal, |anchor| anchor.on_a),
         Normal::OnB(normal) => (normal, |anchor| anchor.on_b),
-        Normal::Between | Normal::Inside => return way + turn * h > length,
+        Normal::Between | Normal::Inside => return true,
     };
     let [low, high] = manifold.face;
     let stays = manifold.anchors[..manifold.count].iter().all(|anchor| {

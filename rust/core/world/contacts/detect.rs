@@ -164,8 +164,9 @@ impl Contacts {
     /// order. Pairs of one height go by their numbers, whatever else is in the world.
     fn order(&mut self, bodies: &Bodies, gravity: Vec2) {
         let up = if gravity == Vec2::zeros() { Vec2::x() } else { -gravity.normalize() };
-        let Self { near, entries, .. } = self;
-        for pair in &mut *near {
+        let Self { near, entries, ranks, sorted, .. } = self;
+        ranks.clear();
+        for (place, pair) in near.iter_mut().enumerate() {
             let height = |proxy: ProxyId| {
                 let body = entries[proxy.0 as usize].collider.body as usize;
                 let free = bodies.masses[body].is_free();
@@ -175,9 +176,15 @@ impl Contacts {
                 [(true, a), (true, b)] => 0.5 * (a + b),
                 [(true, a), _] | [_, (_, a)] => a,
             };
+            ranks.push((rank(pair.height), pair.proxies, place as u32));
         }
-        // Nearly sorted since the last step: one pass.
-        near.sort_by(|a, b| b.height.total_cmp(&a.height).then(a.proxies.cmp(&b.proxies)));
+        if !ranks.is_sorted() {
+            // What is sorted is small; pairs move once.
+            ranks.sort_unstable();
+            sorted.clear();
+            sorted.extend(ranks.iter().map(|(.., place)| near[*place as usize].clone()));
+            std::mem::swap(near, sorted);
+        }
     }
 
     /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
@@ -210,6 +217,12 @@ impl Contacts {
             pair.count = patches.len() as u32 - pair.first;
         }
     }
+}
+
+/// A number that is the smaller, the larger a height is, in the order of [`Real::total_cmp`].
+fn rank(height: Real) -> u64 {
+    let bits = height.to_bits();
+    if bits >> 63 == 0 { !(bits | 1 << 63) } else { bits }
 }
 
 /// Overlap, as a part of the smaller width, with which a shape still counts as wholly on one side of a platform.

@@ -11,6 +11,8 @@ mod finer;
 mod hits;
 mod hooks;
 mod near;
+#[cfg(test)]
+mod packets;
 mod sleep;
 mod strays;
 mod surroundings;
@@ -63,6 +65,11 @@ pub(super) struct Contacts {
     pub touching: touching::Touching,
     #[serde(skip)]
     map: PairMap,
+    /// Ranks of the pairs, and what they are sorted into.
+    #[serde(skip)]
+    ranks: Vec<(u64, [ProxyId; 2], u32)>,
+    #[serde(skip)]
+    sorted: Vec<Near>,
     #[serde(skip)]
     before: Vec<Patch>,
     /// Frames of the bodies' centres of mass, in body order.
