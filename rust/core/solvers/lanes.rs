@@ -51,6 +51,8 @@ pub(crate) struct Packet {
     /// Coefficients of what sticks and what slides.
     friction: [Lane; 2],
     pub flags: Mask,
+    /// Some block has two points.
+    pub two: bool,
 }
 
 /// Whether blocks are packed, or not because it does not pay.
@@ -91,6 +93,7 @@ impl Packet {
         impulse: [[0.0; LANES]; 3],
         friction: [[0.0; LANES]; 2],
         flags: [0; LANES],
+        two: false,
     };
 
     fn load(&mut self, l: usize, block: &Block) {
@@ -105,6 +108,7 @@ impl Packet {
         for k in 0..6 {
             self.inverse[k][l] = block.inverse[k];
         }
+        self.two |= block.count == 2;
         self.friction[0][l] = block.friction.sticking;
         self.friction[1][l] = block.friction.sliding;
         let flag = |on: bool, flag: u64| if on { flag } else { 0 };
@@ -208,6 +212,7 @@ impl Lanes {
         let nobody = velocities.len() as u32;
         let packets = self.packets.iter_mut().zip(&mut self.responses);
         for ((packet, response), order) in packets.zip(&self.order) {
+            packet.two = false;
             for (l, k) in order.iter().enumerate() {
                 match blocks.get(*k as usize) {
                     Some(block) => {
@@ -310,7 +315,12 @@ fn sweep(
 ) -> Real {
     let mut changes = [0.0; LANES];
     for ((packet, response), order) in packets.iter_mut().zip(responses).zip(order) {
-        if let Some((left, error)) = kernel::solve(packet, response, velocities, &mut changes) {
+        let left = if packet.two {
+            kernel::solve::<true>(packet, response, velocities, &mut changes)
+        } else {
+            kernel::solve::<false>(packet, response, velocities, &mut changes)
+        };
+        if let Some((left, error)) = left {
             for l in (0..LANES).filter(|l| left[*l] != 0) {
                 let error = error.map(|lane| lane[l]);
                 let change = packet.solve_one(

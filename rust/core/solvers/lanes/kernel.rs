@@ -59,9 +59,10 @@ fn inverses(velocities: &[Velocity], slots: &[u32; LANES]) -> [Lane; 3] {
 }
 
 /// Solves a packet and gives the bodies the change; raises `changes` to the largest change of velocity along a row (m/s).
-/// Lanes in which no mode is found are left alone, and returned with what their velocities are beyond the targets.
+/// Lanes in which no mode is found are left alone, and returned with what their velocities are beyond the targets. Packets in
+/// which nothing has two points go without the second row.
 #[inline(always)]
-pub fn solve(
+pub fn solve<const TWO: bool>(
     packet: &mut Packet,
     response: &Response,
     velocities: &mut [Velocity],
@@ -69,12 +70,12 @@ pub fn solve(
 ) -> Option<(Mask, [Lane; 3])> {
     let a = twists(velocities, &packet.bodies[0]);
     let b = twists(velocities, &packet.bodies[1]);
-    let error = lacking(packet, &a, &b);
-    let mut busy = is_busy(packet, &error);
+    let error = lacking::<TWO>(packet, &a, &b);
+    let mut busy = is_busy::<TWO>(packet, &error);
     if !any(&busy) {
         return None;
     }
-    let (mut new, held) = sticking(packet, &error);
+    let (mut new, held) = sticking::<TWO>(packet, &error);
     let mut rest = [0; LANES];
     for l in 0..LANES {
         rest[l] = busy[l] & !held[l];
@@ -99,12 +100,12 @@ pub fn solve(
             left = Some((failed, error));
         }
     }
-    let most = largest(packet, response, &new);
+    let most = largest::<TWO>(packet, response, &new);
     for l in 0..LANES {
         let larger = (busy[l] != 0) & (most[l] > changes[l]);
         changes[l] = if larger { most[l] } else { changes[l] };
     }
-    push(packet, &new, &busy, (velocities, &a, &b));
+    push::<TWO>(packet, &new, &busy, (velocities, &a, &b));
     left
 }
 
@@ -127,53 +128,66 @@ pub fn warm_start(packet: &mut Packet, velocities: &mut [Velocity]) {
         busy[l] = mask((p != 0.0) | (q != 0.0) | (t != 0.0));
     }
     packet.impulse = [[0.0; LANES]; 3];
-    push(packet, &new, &busy, (velocities, &a, &b));
+    push::<true>(packet, &new, &busy, (velocities, &a, &b));
 }
 
 /// The velocities beyond the targets, as [`crate::constraints::contact::Block::velocity`] has them.
 #[inline(always)]
-fn lacking(packet: &Packet, a: &[Lane; 3], b: &[Lane; 3]) -> [Lane; 3] {
+fn lacking<const TWO: bool>(packet: &Packet, a: &[Lane; 3], b: &[Lane; 3]) -> [Lane; 3] {
     let Packet { normal, arms, target, .. } = packet;
     let mut error = [[0.0; LANES]; 3];
     for l in 0..LANES {
         let (x, y) = (b[0][l] - a[0][l], b[1][l] - a[1][l]);
         let along_n = normal[0][l] * x + normal[1][l] * y;
         let along_t = -normal[1][l] * x + normal[0][l] * y;
-        let (wa, wb) = (a[2][l], b[2][l]);
-        error[0][l] = along_n + (arms[0][1][l] * wb - arms[0][0][l] * wa) - target[0][l];
-        error[1][l] = along_n + (arms[1][1][l] * wb - arms[1][0][l] * wa) - target[1][l];
-        error[2][l] = along_t + (arms[2][1][l] * wb - arms[2][0][l] * wa) - target[2][l];
+        let spin = |k: usize| arms[k][1][l] * b[2][l] - arms[k][0][l] * a[2][l];
+        error[0][l] = along_n + spin(0) - target[0][l];
+        if TWO {
+            error[1][l] = along_n + spin(1) - target[1][l];
+        }
+        error[2][l] = along_t + spin(2) - target[2][l];
     }
     error
 }
 
 /// Whether a lane has anything to do.
 #[inline(always)]
-fn is_busy(packet: &Packet, error: &[Lane; 3]) -> Mask {
+fn is_busy<const TWO: bool>(packet: &Packet, error: &[Lane; 3]) -> Mask {
     let Packet { impulse, flags, .. } = packet;
     let mut busy = [0; LANES];
     for l in 0..LANES {
-        let loaded = (impulse[0][l] != 0.0) | (impulse[1][l] != 0.0) | (impulse[2][l] != 0.0);
+        let loaded = (impulse[0][l] != 0.0) | (impulse[2][l] != 0.0);
         let first = (flags[l] & FIRST != 0) & (error[0][l] < 0.0);
-        let second = (flags[l] & SECOND != 0) & (error[1][l] < 0.0);
-        busy[l] = mask(loaded | first | second);
+        busy[l] = mask(loaded | first);
+        if TWO {
+            let second = (flags[l] & SECOND != 0) & (error[1][l] < 0.0);
+            busy[l] |= mask((impulse[1][l] != 0.0) | second);
+        }
     }
     busy
 }
 
 /// The impulses that meet all targets, and whether the bounds allow them.
 #[inline(always)]
-fn sticking(packet: &Packet, error: &[Lane; 3]) -> ([Lane; 3], Mask) {
+fn sticking<const TWO: bool>(packet: &Packet, error: &[Lane; 3]) -> ([Lane; 3], Mask) {
     let Packet { inverse, impulse, friction, flags, .. } = packet;
     let (mut new, mut held) = ([[0.0; LANES]; 3], [0; LANES]);
     for l in 0..LANES {
         let (x, y, z) = (error[0][l], error[1][l], error[2][l]);
-        let p = impulse[0][l] - (inverse[0][l] * x + inverse[2][l] * y + inverse[3][l] * z);
-        let q = impulse[1][l] - (inverse[2][l] * x + inverse[1][l] * y + inverse[4][l] * z);
-        let t = impulse[2][l] - (inverse[3][l] * x + inverse[4][l] * y + inverse[5][l] * z);
-        let bound = if flags[l] & SLIDES != 0 { friction[1][l] } else { friction[0][l] };
+        let [n00, n11, n01, n0t, n1t, ntt] = [0, 1, 2, 3, 4, 5].map(|k| inverse[k][l]);
+        let bound = pick(mask(flags[l] & SLIDES != 0), friction[1][l], friction[0][l]);
+        let (p, q, t) = if TWO {
+            (
+                impulse[0][l] - (n00 * x + n01 * y + n0t * z),
+                impulse[1][l] - (n01 * x + n11 * y + n1t * z),
+                impulse[2][l] - (n0t * x + n1t * y + ntt * z),
+            )
+        } else {
+            let (p, t) = (n00 * x + n0t * z, n0t * x + ntt * z);
+            (impulse[0][l] - p, 0.0, impulse[2][l] - t)
+        };
         let allowed = (p >= 0.0) & (q >= 0.0) & (t.abs() <= bound * (p + q));
-        held[l] = mask(allowed & (inverse[5][l] != 0.0));
+        held[l] = mask(allowed & (ntt != 0.0));
         (new[0][l], new[1][l], new[2][l]) = (p, q, t);
     }
     (new, held)
@@ -181,14 +195,16 @@ fn sticking(packet: &Packet, error: &[Lane; 3]) -> ([Lane; 3], Mask) {
 
 /// Largest change of velocity that new impulses make along their rows.
 #[inline(always)]
-fn largest(packet: &Packet, k: &Response, new: &[Lane; 3]) -> Lane {
+fn largest<const TWO: bool>(packet: &Packet, k: &Response, new: &[Lane; 3]) -> Lane {
     let mut largest = [0.0; LANES];
     for l in 0..LANES {
-        let p = ((new[0][l] - packet.impulse[0][l]) * k[0][l]).abs();
-        let q = ((new[1][l] - packet.impulse[1][l]) * k[1][l]).abs();
-        let t = ((new[2][l] - packet.impulse[2][l]) * k[5][l]).abs();
-        let normal = if p > q { p } else { q };
-        largest[l] = if normal > t { normal } else { t };
+        let change = |row: usize, k: &Lane| ((new[row][l] - packet.impulse[row][l]) * k[l]).abs();
+        let (mut most, t) = (change(0, &k[0]), change(2, &k[5]));
+        if TWO {
+            let q = change(1, &k[1]);
+            most = if most > q { most } else { q };
+        }
+        largest[l] = if most > t { most } else { t };
     }
     largest
 }
@@ -196,7 +212,7 @@ fn largest(packet: &Packet, k: &Response, new: &[Lane; 3]) -> Lane {
 /// Gives busy lanes their new impulses, and their bodies the change, as
 /// [`crate::constraints::contact::Block::push`] does.
 #[inline(always)]
-fn push(
+fn push<const TWO: bool>(
     packet: &mut Packet,
     new: &[Lane; 3],
     busy: &Mask,
@@ -213,16 +229,25 @@ fn push(
         let (nx, ny, sum) = (normal[0][l], normal[1][l], p + q);
         push[0][l] = nx * sum + -ny * t;
         push[1][l] = ny * sum + nx * t;
-        push[2][l] = arms[0][0][l] * p + arms[1][0][l] * q + arms[2][0][l] * t;
-        push[3][l] = arms[0][1][l] * p + arms[1][1][l] * q + arms[2][1][l] * t;
+        for side in 0..2 {
+            let mut torque = arms[0][side][l] * p;
+            if TWO {
+                torque += arms[1][side][l] * q;
+            }
+            push[2 + side][l] = torque + arms[2][side][l] * t;
+        }
     }
-    let (mut after_a, mut after_b) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
+    let (mut after_a, mut after_b) = (*a, *b);
     for (k, (of_a, of_b)) in [(0, 0), (1, 1), (2, 3)].into_iter().enumerate() {
         for l in 0..LANES {
             let on_a = a[k][l] - inverse_a[k][l] * push[of_a][l];
-            let on_b = b[k][l] + inverse_b[k][l] * push[of_b][l];
             after_a[k][l] = pick(busy[l], on_a, a[k][l]);
+        }
+        for l in 0..LANES {
+            let on_b = b[k][l] + inverse_b[k][l] * push[of_b][l];
             after_b[k][l] = pick(busy[l], on_b, b[k][l]);
+        }
+        for l in 0..LANES {
             impulse[k][l] = pick(busy[l], new[k][l], impulse[k][l]);
         }
     }
@@ -279,7 +304,7 @@ fn by_modes(packet: &Packet, k: &Response, (error, wanted): (&[Lane; 3], &Mask))
         let sum = x[0][l] + x[1][l];
         let solved = (solved[l] != 0) & (k[5][l] > 0.0);
         let t = -(free[2][l] + k[3][l] * x[0][l] + k[4][l] * x[1][l]) / k[5][l];
-        let bound = if flags[l] & SLIDES != 0 { friction[1][l] } else { friction[0][l] };
+        let bound = pick(mask(flags[l] & SLIDES != 0), friction[1][l], friction[0][l]);
         modes.found[l] = mask(solved & (t.abs() <= bound * sum));
         modes.impulse[2][l] = t;
         slide[l] = if solved { (1.0_f64).copysign(t) } else { -(1.0_f64).copysign(free[2][l]) };

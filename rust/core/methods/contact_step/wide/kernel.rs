@@ -14,7 +14,7 @@ use super::{BETWEEN, INSIDE, ON_B, Shape, TWO};
 use crate::constraints::contact::SINGULAR;
 use crate::constraints::{Place, Velocity};
 use crate::math::{Real, Rot, Twist, Vec2, cross, perp, vec2};
-use crate::solvers::lanes::kernel::{mask, pick};
+use crate::solvers::lanes::kernel::{any, mask, pick};
 use crate::solvers::lanes::{FIRST, LANES, Lane, Mask, Packet, Response, SECOND, SLIDES};
 
 /// A vector in each lane.
@@ -137,16 +137,21 @@ pub(super) fn points(
         }
     }
     for l in 0..LANES {
-        let kind = shape.kind[l];
-        let (corners, on_b) = (mask(kind & (BETWEEN | INSIDE) != 0), mask(kind & ON_B != 0));
+        let on_b = mask(shape.kind[l] & ON_B != 0);
         let (ra, rb) = (rot(&a.rot, l), rot(&b.rot, l));
         let holder = Rot { cos: pick(on_b, rb.cos, ra.cos), sin: pick(on_b, rb.sin, ra.sin) };
-        let face = holder.apply(get(&shape.normal, l));
-        let between = get(&points.between[0], l);
-        let length = (between.x * between.x + between.y * between.y).sqrt();
-        let sign = if kind & INSIDE != 0 { -1.0 } else { 1.0 };
-        let along = choose(mask(length > 0.0), between * (sign / length), vec2(0.0, 1.0));
-        set(normal, l, choose(corners, along, face));
+        set(normal, l, holder.apply(get(&shape.normal, l)));
+    }
+    if shape.corners {
+        for l in 0..LANES {
+            let corners = mask(shape.kind[l] & (BETWEEN | INSIDE) != 0);
+            let between = get(&points.between[0], l);
+            let length = (between.x * between.x + between.y * between.y).sqrt();
+            let sign = if shape.kind[l] & INSIDE != 0 { -1.0 } else { 1.0 };
+            let along = choose(mask(length > 0.0), between * (sign / length), vec2(0.0, 1.0));
+            let face = get(normal, l);
+            set(normal, l, choose(corners, along, face));
+        }
     }
     for k in 0..2 {
         for l in 0..LANES {
@@ -230,7 +235,9 @@ fn curves(packet: &Packet, shape: &Shape, points: &Points, [a, b]: [&Side; 2]) -
     let mut curves =
         Curves { normal: [[0.0; LANES]; 2], turning: [0.0; LANES], passes: [[0; LANES]; 2] };
     curves_of_point(0, packet, shape, points, ([a, b], &mut curves));
-    curves_of_point(1, packet, shape, points, ([a, b], &mut curves));
+    if packet.two {
+        curves_of_point(1, packet, shape, points, ([a, b], &mut curves));
+    }
     curves
 }
 
@@ -242,6 +249,40 @@ fn curves_of_point(
     points: &Points,
     ([a, b], curves): ([&Side; 2], &mut Curves),
 ) {
+    let (mut face, mut corner) = ([[0.0; LANES]; 2], ([[0.0; LANES]; 2], [0; LANES]));
+    if shape.faces {
+        face = of_faces(k, packet, shape, points, [a, b]);
+    }
+    if shape.corners {
+        corner = of_corners(k, packet, shape, points, [a, b]);
+    }
+    let (corner, passes) = corner;
+    for l in 0..LANES {
+        let kind = shape.kind[l];
+        let there = if k == 0 { mask(true) } else { mask(kind & TWO != 0) };
+        let corners = mask(kind & (BETWEEN | INSIDE) != 0);
+        let loaded = mask(packet.impulse[k][l] > 0.0);
+        let apart = mask(shape.gap[k][l] > 0.0);
+        let counts = (loaded | apart) & there;
+        curves.normal[k][l] = pick(counts, pick(corners, corner[0][l], face[0][l]), 0.0);
+        let tangent = pick(counts, pick(corners, corner[1][l], face[1][l]), 0.0);
+        let load = packet.impulse[0][l] + packet.impulse[1][l];
+        let sticks = loaded & mask(packet.flags[l] & SLIDES == 0);
+        let share = pick(sticks, packet.impulse[k][l] / load, 0.0);
+        curves.turning[l] += pick(counts, share * tangent, 0.0);
+        curves.passes[k][l] = passes[l] & apart & !loaded & mask(kind & BETWEEN != 0);
+    }
+}
+
+/// J̇v of normals and tangents where a face holds the normal.
+#[inline(always)]
+fn of_faces(
+    k: usize,
+    packet: &Packet,
+    shape: &Shape,
+    points: &Points,
+    [a, b]: [&Side; 2],
+) -> [Lane; 2] {
     let mut face = [[0.0; LANES]; 2];
     for l in 0..LANES {
         // The body of the face turns with wf, the point of the other is r away from that one's centre.
@@ -262,8 +303,19 @@ fn curves_of_point(
         face[0][l] = pick(turns, pick(on_b, -normal, normal), 0.0);
         face[1][l] = pick(turns, pick(on_b, -tangent, tangent), 0.0);
     }
-    let mut corner = [[0.0; LANES]; 2];
-    let mut passes = [0; LANES];
+    face
+}
+
+/// The same of two corners, sharp or round, and whether they come nearer and yet go past.
+#[inline(always)]
+fn of_corners(
+    k: usize,
+    packet: &Packet,
+    shape: &Shape,
+    points: &Points,
+    [a, b]: [&Side; 2],
+) -> ([Lane; 2], Mask) {
+    let (mut corner, mut passes) = ([[0.0; LANES]; 2], [0; LANES]);
     for l in 0..LANES {
         let (va, vb) = (twist(&a.twist, l), twist(&b.twist, l));
         let (at_a, at_b) = (get(&points.on_a[k], l), get(&points.on_b[k], l));
@@ -280,21 +332,7 @@ fn curves_of_point(
         let speed = (rate.x * rate.x + rate.y * rate.y).sqrt();
         passes[l] = mask((shape.gap[k][l] + radii) * t.dot(&rate).abs() > radii * speed);
     }
-    for l in 0..LANES {
-        let kind = shape.kind[l];
-        let there = if k == 0 { mask(true) } else { mask(kind & TWO != 0) };
-        let corners = mask(kind & (BETWEEN | INSIDE) != 0);
-        let loaded = mask(packet.impulse[k][l] > 0.0);
-        let apart = mask(shape.gap[k][l] > 0.0);
-        let counts = (loaded | apart) & there;
-        curves.normal[k][l] = pick(counts, pick(corners, corner[0][l], face[0][l]), 0.0);
-        let tangent = pick(counts, pick(corners, corner[1][l], face[1][l]), 0.0);
-        let load = packet.impulse[0][l] + packet.impulse[1][l];
-        let sticks = loaded & mask(packet.flags[l] & SLIDES == 0);
-        let share = pick(sticks, packet.impulse[k][l] / load, 0.0);
-        curves.turning[l] += pick(counts, share * tangent, 0.0);
-        curves.passes[k][l] = passes[l] & apart & !loaded & mask(kind & BETWEEN != 0);
-    }
+    (corner, passes)
 }
 
 /// Targets of the rows, and which take part.
@@ -310,34 +348,47 @@ fn targets(packet: &mut Packet, shape: &Shape, (curves, h): (&Curves, Real), [a,
             }
         }
     }
-    for k in 0..2 {
-        for l in 0..LANES {
-            let there = mask(k == 0 || shape.kind[l] & TWO != 0);
-            let n = get(&packet.normal, l);
-            let (arm_a, arm_b) = (packet.arms[k][0][l], packet.arms[k][1][l]);
-            let (va, vb) = (twist(&kicked[0], l), twist(&kicked[1], l));
-            let along = n.dot(&(vb.linear - va.linear)) + (arm_b * vb.angular - arm_a * va.angular);
-            let (fa, fb) = (twist(&a.acceleration, l), twist(&b.acceleration, l));
-            let spin = arm_b * fb.angular - arm_a * fa.angular;
-            let kick = (n.dot(&(fb.linear - fa.linear)) + spin) * h;
-            let (gap, bend) = (shape.gap[k][l], curves.normal[k][l] * h);
-            let loaded = packet.impulse[k][l] > 0.0;
-            let left = kick - along;
-            let left = pick(mask(left > 0.0), left, 0.0);
-            let curve = -0.5 * bend;
-            let wanted = pick(mask(loaded), pick(mask(curve < left), curve, left), 0.0);
-            let opens = pick(mask(bend > 0.0), bend, 0.0);
-            let opening = pick(mask(loaded), 0.0, 0.5 * opens);
-            let touches = mask((gap <= 0.0) | (loaded & (gap <= (bend * h).abs())));
-            let target = pick(touches, wanted, -gap / h - opening);
-            packet.target[k][l] = pick(there, target, 0.0);
-            let on = there & (touches | !curves.passes[k][l]);
-            let flag = if k == 0 { FIRST } else { SECOND };
-            packet.flags[l] = (packet.flags[l] & !flag) | (on & flag);
-        }
+    normal_target(0, packet, shape, (curves, h), ([a, b], &kicked));
+    if packet.two {
+        normal_target(1, packet, shape, (curves, h), ([a, b], &kicked));
     }
     for l in 0..LANES {
         packet.target[2][l] = shape.tangent_speed[l] - 0.5 * h * curves.turning[l];
+    }
+}
+
+/// Target of the normal row of a point, and whether it takes part.
+#[inline(always)]
+fn normal_target(
+    k: usize,
+    packet: &mut Packet,
+    shape: &Shape,
+    (curves, h): (&Curves, Real),
+    ([a, b], kicked): ([&Side; 2], &[[Lane; 3]; 2]),
+) {
+    for l in 0..LANES {
+        let there = mask(k == 0 || shape.kind[l] & TWO != 0);
+        let n = get(&packet.normal, l);
+        let (arm_a, arm_b) = (packet.arms[k][0][l], packet.arms[k][1][l]);
+        let (va, vb) = (twist(&kicked[0], l), twist(&kicked[1], l));
+        let along = n.dot(&(vb.linear - va.linear)) + (arm_b * vb.angular - arm_a * va.angular);
+        let (fa, fb) = (twist(&a.acceleration, l), twist(&b.acceleration, l));
+        let spin = arm_b * fb.angular - arm_a * fa.angular;
+        let kick = (n.dot(&(fb.linear - fa.linear)) + spin) * h;
+        let (gap, bend) = (shape.gap[k][l], curves.normal[k][l] * h);
+        let loaded = packet.impulse[k][l] > 0.0;
+        let left = kick - along;
+        let left = pick(mask(left > 0.0), left, 0.0);
+        let curve = -0.5 * bend;
+        let wanted = pick(mask(loaded), pick(mask(curve < left), curve, left), 0.0);
+        let opens = pick(mask(bend > 0.0), bend, 0.0);
+        let opening = pick(mask(loaded), 0.0, 0.5 * opens);
+        let touches = mask((gap <= 0.0) | (loaded & (gap <= (bend * h).abs())));
+        let target = pick(touches, wanted, -gap / h - opening);
+        packet.target[k][l] = pick(there, target, 0.0);
+        let on = there & (touches | !curves.passes[k][l]);
+        let flag = if k == 0 { FIRST } else { SECOND };
+        packet.flags[l] = (packet.flags[l] & !flag) | (on & flag);
     }
 }
 
@@ -345,13 +396,30 @@ fn targets(packet: &mut Packet, shape: &Shape, (curves, h): (&Curves, Real), [a,
 #[inline(always)]
 fn respond(packet: &mut Packet, response: &mut Response, [a, b]: [&Side; 2]) {
     response[0] = coupling(packet, (0, 0), [a, b]);
-    response[1] = coupling(packet, (1, 1), [a, b]);
-    response[2] = coupling(packet, (0, 1), [a, b]);
     response[3] = coupling(packet, (0, 2), [a, b]);
-    response[4] = coupling(packet, (1, 2), [a, b]);
     response[5] = coupling(packet, (2, 2), [a, b]);
-    let zero = [0.0; LANES];
-    let mut three = [zero; 6];
+    let mut inverse = [[0.0; LANES]; 6];
+    if packet.two {
+        response[1] = coupling(packet, (1, 1), [a, b]);
+        response[2] = coupling(packet, (0, 1), [a, b]);
+        response[4] = coupling(packet, (1, 2), [a, b]);
+        inverse = inverse_of_three(packet, response);
+    }
+    let mut single = [0; LANES];
+    for l in 0..LANES {
+        let flags = packet.flags[l];
+        single[l] = mask(flags & FIRST != 0) ^ mask(flags & SECOND != 0);
+    }
+    if any(&single) {
+        add_inverse_of_two(packet, response, &single, &mut inverse);
+    }
+    packet.inverse = inverse;
+}
+
+/// Inverses where both points are on; zero elsewhere.
+#[inline(always)]
+fn inverse_of_three(packet: &Packet, response: &Response) -> [Lane; 6] {
+    let mut inverse = [[0.0; LANES]; 6];
     for l in 0..LANES {
         let [a, b, c, d, e, f] = [0, 1, 2, 3, 4, 5].map(|k| response[k][l]);
         let minors = [
@@ -363,28 +431,37 @@ fn respond(packet: &mut Packet, response: &mut Response, [a, b]: [&Side; 2]) {
             a * b - c * c,
         ];
         let det = a * minors[0] + c * minors[2] + d * minors[3];
-        let regular = mask(det > SINGULAR * a * b * f);
+        let both = mask(packet.flags[l] & FIRST != 0) & mask(packet.flags[l] & SECOND != 0);
+        let regular = mask(det > SINGULAR * a * b * f) & both;
         for k in 0..6 {
-            three[k][l] = pick(regular, minors[k] / det, 0.0);
+            inverse[k][l] = pick(regular, minors[k] / det, 0.0);
         }
     }
+    inverse
+}
+
+/// The same where a single one is.
+#[inline(always)]
+fn add_inverse_of_two(
+    packet: &Packet,
+    response: &Response,
+    single: &Mask,
+    inverse: &mut [Lane; 6],
+) {
     for l in 0..LANES {
-        let (first, second) =
-            (mask(packet.flags[l] & FIRST != 0), mask(packet.flags[l] & SECOND != 0));
+        let first = mask(packet.flags[l] & FIRST != 0);
         let p = pick(first, response[0][l], response[1][l]);
         let c = pick(first, response[3][l], response[4][l]);
         let q = response[5][l];
         let det = p * q - c * c;
-        let regular = mask(det > SINGULAR * p * q) & (first ^ second);
-        let (i, t) = (pick(regular, q / det, 0.0), pick(regular, p / det, 0.0));
-        let m = pick(regular, -c / det, 0.0);
-        let both = first & second;
-        packet.inverse[0][l] = pick(both, three[0][l], pick(first, i, 0.0));
-        packet.inverse[1][l] = pick(both, three[1][l], pick(first, 0.0, i));
-        packet.inverse[2][l] = pick(both, three[2][l], 0.0);
-        packet.inverse[3][l] = pick(both, three[3][l], pick(first, m, 0.0));
-        packet.inverse[4][l] = pick(both, three[4][l], pick(first, 0.0, m));
-        packet.inverse[5][l] = pick(both, three[5][l], t);
+        let regular = mask(det > SINGULAR * p * q) & single[l];
+        let (own, mixed, t) = (q / det, -c / det, p / det);
+        let (of_first, of_second) = (regular & first, regular & !first);
+        inverse[0][l] = pick(of_first, own, inverse[0][l]);
+        inverse[1][l] = pick(of_second, own, inverse[1][l]);
+        inverse[3][l] = pick(of_first, mixed, inverse[3][l]);
+        inverse[4][l] = pick(of_second, mixed, inverse[4][l]);
+        inverse[5][l] = pick(regular, t, inverse[5][l]);
     }
 }
 

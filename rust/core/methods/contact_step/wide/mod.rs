@@ -33,6 +33,9 @@ struct Shape {
     apart: [Lane; 2],
     width: Lane,
     tangent_speed: Lane,
+    /// Some normal is held by a face; some is not.
+    faces: bool,
+    corners: bool,
     /// Gaps in the middle of the substep (m).
     gap: [Lane; 2],
     /// Normal impulses of the rows in the step (N·s).
@@ -70,6 +73,8 @@ impl Shape {
         apart: [[0.0; LANES]; 2],
         width: [0.0; LANES],
         tangent_speed: [0.0; LANES],
+        faces: false,
+        corners: false,
         gap: [[0.0; LANES]; 2],
         passed: [0.0; LANES],
     };
@@ -82,6 +87,9 @@ impl Shape {
             Normal::Between => (BETWEEN, vec2(0.0, 1.0)),
             Normal::Inside => (INSIDE, vec2(0.0, 1.0)),
         };
+        let face = matches!(manifold.normal, Normal::OnA(_) | Normal::OnB(_));
+        self.faces |= face;
+        self.corners |= !face;
         self.kind[l] = kind | if manifold.count == 2 { TWO } else { 0 };
         for (i, (normal, apart)) in normal.iter().zip(&link.apart).enumerate() {
             (self.normal[i][l], self.apart[i][l]) = (*normal, *apart);
