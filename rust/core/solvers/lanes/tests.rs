@@ -46,13 +46,16 @@ fn block(numbers: &Numbers, velocities: &[Velocity]) -> Block {
     if a == b {
         b = (a + 1) % count;
     }
-    let [two, first, second, loaded] = flags;
-    let on = if two { [first, second] } else { [true, false] };
+    let [two, first, last, loaded] = flags;
+    let on = if two { [first, last] } else { [true, false] };
+    // What has one point bears nothing at a second.
+    let second = if two { [arms[2], arms[3]] } else { [0.0; 2] };
+    let impulse = if two { impulse } else { [impulse[0], 0.0, impulse[2]] };
     let n = Rot::new(turn).apply(vec2(1.0, 0.0));
     let mut block = Block {
         bodies: [a, b],
         normal: n,
-        arms: [[arms[0], arms[1]], [arms[2], arms[3]], [arms[0] - 0.3, arms[1] + 0.4]],
+        arms: [[arms[0], arms[1]], second, [arms[0] - 0.3, arms[1] + 0.4]],
         gap: [0.0; 2],
         target,
         response: [0.0; 6],
