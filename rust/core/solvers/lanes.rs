@@ -2,7 +2,7 @@
 //!
 //! Blocks that share no body that gives way may be solved at once: each sees what it would have seen in its turn. They are
 //! packed so that of two blocks that do share one, the earlier stands in an earlier packet. So a sweep gives the same
-//! bits as [`super::block::solve`] on one block after the other, whatever the packing and whatever the processor: no
+//! bits as `solvers::block::solve` on one block after the other, whatever the packing and whatever the processor: no
 //! operation is fused or reordered.
 
 pub(crate) mod kernel;

@@ -1,4 +1,4 @@
-//! A packet of eight blocks against the present velocities: [`super::super::block::solve`], eight times side by side.
+//! A packet of eight blocks against the present velocities: `solvers::block::solve`, eight times side by side.
 //!
 //! Plain loops over the lanes, without branches, which the compiler makes wide instructions of. What a lane does is what
 //! the scalar version does, in the same order; masks choose among the cases.
