@@ -14,7 +14,7 @@ pub struct System<'a> {
     /// The joints, none of which has a bound on what it may use.
     pub joints: Option<&'a mut Joints>,
     /// What touches and what joints hold, together; then `joints` is none.
-    pub modes: Option<Modes>,
+    pub modes: Option<Box<Modes>>,
 }
 
 impl System<'_> {

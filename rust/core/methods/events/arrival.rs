@@ -91,6 +91,18 @@ impl Pair<'_> {
         found.iter().flat_map(points).collect()
     }
 
+    /// First meeting of shapes that leave one another at these features and are clear after a time: until then others may meet.
+    pub fn first_from(
+        &self,
+        path: &dyn Path,
+        (clear, leaving): (Real, &[u32]),
+        to: Real,
+    ) -> Option<Arrival> {
+        let soon = clear.min(to);
+        let other = (soon > 0.0).then(|| self.first_feature(path, [0.0, soon], leaving)).flatten();
+        other.or_else(|| self.first_meeting(path, [clear, to]))
+    }
+
     /// First meeting after `from` and before `to` of shapes that are apart then.
     pub fn first_meeting(&self, path: &dyn Path, [from, to]: [Real; 2]) -> Option<Arrival> {
         if self.joined() {

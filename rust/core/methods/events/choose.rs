@@ -23,8 +23,11 @@ pub enum Hint {
     Breaks(u32, u32, Real),
 }
 
-/// A force below this part of the largest is none; an acceleration likewise.
+/// A force below this part of the largest is none.
 const NONE: Real = 1e-11;
+
+/// An acceleration along the surface below this part of the largest is none: rows that depend on one another leave a little.
+const AWAY: Real = 1e-9;
 
 /// Chooses the modes for accelerations by other forces, `free`. False where there is no solution without a jump.
 pub fn choose(
@@ -167,7 +170,7 @@ fn solve(
             Unknown::Normal(k, p) => answer[k].on[p] = *force > NONE * largest,
             Unknown::Along(k, sign) => along[k] += sign * force,
             Unknown::Away(k) => {
-                if *force > NONE * fastest {
+                if *force > AWAY * fastest {
                     // Friction acts against the way the surfaces go.
                     answer[k].slip = Slip::Slides(-along[k].signum());
                 }

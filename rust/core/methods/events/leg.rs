@@ -2,7 +2,7 @@
 
 use super::arrival::Pair;
 use super::choose::Hint;
-use super::modes::{Modes, Slip};
+use super::modes::{Contact, Slip};
 use super::path::{Free, Path};
 use super::point::Point;
 use super::switch::{Event, Lookout, Watch};
@@ -20,6 +20,10 @@ impl Run<'_, '_, '_, '_> {
         let (bears, joined) = self.system.modes.as_ref().map_or((false, false), |modes| {
             (modes.bears(), modes.joints.bodies() > 0 && modes.joints.any())
         });
+        if bears {
+            // What sticks stands still to the last bit, so that rest is seen however loads are shared.
+            self.system.settle_motion(self.motion);
+        }
         let accelerations = self.accelerations()?;
         let watch = self.watch(&accelerations);
         if self.island.constant && !bears && !joined {
@@ -65,9 +69,11 @@ impl Run<'_, '_, '_, '_> {
                 }
             }
             if points.is_empty() {
-                Watch::Apart(0.0)
+                Watch::Apart(0.0, Vec::new())
             } else if bearing.is_empty() && !stays {
-                Watch::Apart(pair.clear(&path, 0.0, &points, self.span.duration - self.passed))
+                let rest = self.span.duration - self.passed;
+                let leaving = points.iter().map(|point| point.feature).collect();
+                Watch::Apart(pair.clear(&path, 0.0, &points, rest), leaving)
             } else {
                 Watch::Touches(bearing)
             }
@@ -84,7 +90,7 @@ impl Run<'_, '_, '_, '_> {
         for (k, (pair, watch)) in self.island.pairs.iter().zip(watch).enumerate() {
             let to = first.as_ref().map_or(rest, |(time, ..)| *time);
             let met = match watch {
-                Watch::Apart(clear) => pair.first_meeting(&path, [*clear, to]),
+                Watch::Apart(clear, leaving) => pair.first_from(&path, (*clear, leaving), to),
                 Watch::Touches(bearing) => pair.first_feature(&path, [0.0, to], bearing),
             };
             if let Some(met) = met.filter(|met| met.time < to) {
@@ -186,6 +192,8 @@ impl Run<'_, '_, '_, '_> {
     /// Keeps what an event says.
     fn take(&mut self, event: Event) {
         self.outcome.events += 1;
+        let Some(modes) = &mut self.system.modes else { return };
+        modes.look(self.motion.poses, self.motion.twists);
         let Some(modes) = &self.system.modes else { return };
         let name = |k: usize, p: usize| {
             let contact = &modes.contacts[k];
@@ -204,16 +212,34 @@ impl Run<'_, '_, '_, '_> {
                 self.hints.push(Hint::Breaks(pair, feature, sigma));
             }
             Event::Stops(k) => {
-                let (pair, feature) = name(k, 0);
-                self.hints.push(Hint::Stopped(pair, feature));
+                // With it stop those whose slip is below the error: what moves together stops together.
+                let with = |(j, contact): &(usize, &Contact)| {
+                    let slip = contact.slip_speed(modes.frames(contact.slots), self.motion.twists);
+                    *j == k || slip.abs() <= self.tolerated(contact)
+                };
+                let stopped = modes.contacts.iter().enumerate().filter(with);
+                let hints = stopped.map(|(j, _)| {
+                    let (pair, feature) = name(j, 0);
+                    Hint::Stopped(pair, feature)
+                });
+                let hints: Vec<Hint> = hints.collect();
+                self.hints.extend(hints);
             }
             Event::Leaves(..) => {}
         }
     }
 
+    /// Speed (m/s) at a contact that is below the tolerated error: of what its bodies do, and of what gravity does over their size.
+    fn tolerated(&self, contact: &Contact) -> Real {
+        let none = vec![Twist::ZERO; self.motion.twists.len()];
+        let width = self.island.pairs[contact.pair as usize].width;
+        let pull = (self.system.forces.gravity.norm() * width).sqrt();
+        1e3 * still(self.island, contact, self.motion.twists, &none) + self.island.tolerance * pull
+    }
+
     /// Notes the forces of the contacts at the end.
     pub(super) fn note_bearing(&mut self) -> Result<()> {
-        if !self.system.modes.as_ref().is_some_and(Modes::bears) {
+        if !self.system.modes.as_ref().is_some_and(|modes| modes.bears()) {
             return Ok(());
         }
         self.accelerations()?;

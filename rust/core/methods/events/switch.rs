@@ -46,8 +46,8 @@ pub struct Lookout<'a> {
 /// How a pair is watched.
 #[derive(Clone, Debug)]
 pub enum Watch {
-    /// It is apart from this time on (s).
-    Apart(Real),
+    /// It is apart from this time on (s), and leaves at these features until then.
+    Apart(Real, Vec<u32>),
     /// It touches; these features bear.
     Touches(Vec<u32>),
 }
@@ -159,9 +159,8 @@ impl<'a> Lookout<'a> {
         for (k, (pair, watch)) in self.pairs.iter().zip(self.watch).enumerate() {
             let to = first.as_ref().map_or(until, |(time, _)| *time);
             let met = match watch {
-                Watch::Apart(clear) => {
-                    let from = (clear - self.passed).max(0.0);
-                    pair.first_meeting(path, [from, to])
+                Watch::Apart(clear, leaving) => {
+                    pair.first_from(path, ((clear - self.passed).max(0.0), leaving), to)
                 }
                 Watch::Touches(bearing) => pair.first_feature(path, [0.0, to], bearing),
             };

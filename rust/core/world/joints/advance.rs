@@ -241,7 +241,7 @@ impl World {
         let mut booked = *ledger;
         let mut motion = Motion { poses, twists, ledger: &mut booked };
         if touching {
-            let modes = Modes::new(masses, std::mem::take(joints));
+            let modes = Box::new(Modes::new(masses, std::mem::take(joints)));
             let mut system = System { forces, joints: None, modes: Some(modes) };
             let result = run(&mut system, &mut motion, (&mut scratch.methods, contacts));
             report.evaluations += system.forces.evaluations;
