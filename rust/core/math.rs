@@ -155,10 +155,15 @@ impl Rot {
     #[inline]
     pub(crate) fn turned_little(self, angle: Real) -> Self {
         let z = angle * angle;
+        // Factors in place of divisors: their rounding counts with z, a 64th at most.
+        let part = |n: Real| z * (1.0 / n);
         let sin = 1.0
-            - z / 6.0 * (1.0 - z / 20.0 * (1.0 - z / 42.0 * (1.0 - z / 72.0 * (1.0 - z / 110.0))));
+            - part(6.0)
+                * (1.0
+                    - part(20.0) * (1.0 - part(42.0) * (1.0 - part(72.0) * (1.0 - part(110.0)))));
         let cos = 1.0
-            - z / 2.0 * (1.0 - z / 12.0 * (1.0 - z / 30.0 * (1.0 - z / 56.0 * (1.0 - z / 90.0))));
+            - part(2.0)
+                * (1.0 - part(12.0) * (1.0 - part(30.0) * (1.0 - part(56.0) * (1.0 - part(90.0)))));
         self.after(Self { cos, sin: angle * sin })
     }
 

@@ -229,13 +229,12 @@ fn push<const TWO: bool>(
         let (nx, ny, sum) = (normal[0][l], normal[1][l], p + q);
         push[0][l] = nx * sum + -ny * t;
         push[1][l] = ny * sum + nx * t;
-        for side in 0..2 {
-            let mut torque = arms[0][side][l] * p;
-            if TWO {
-                torque += arms[1][side][l] * q;
-            }
-            push[2 + side][l] = torque + arms[2][side][l] * t;
-        }
+        let torque = |side: usize| {
+            let of_normals = arms[0][side][l] * p;
+            if TWO { of_normals + arms[1][side][l] * q } else { of_normals }
+        };
+        push[2][l] = torque(0) + arms[2][0][l] * t;
+        push[3][l] = torque(1) + arms[2][1][l] * t;
     }
     let (mut after_a, mut after_b) = (*a, *b);
     for (k, (of_a, of_b)) in [(0, 0), (1, 1), (2, 3)].into_iter().enumerate() {
