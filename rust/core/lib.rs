@@ -40,6 +40,7 @@ pub mod builders;
 pub mod collision;
 pub mod constraints;
 pub mod error;
+pub mod fluid;
 pub mod forces;
 pub mod islands;
 pub mod joint;

@@ -44,13 +44,14 @@ impl World {
     /// A field whose potential fails.
     pub fn energy(&self) -> Result<Energy> {
         let ledger = self.ledger();
-        let kinetic = self.dynamic().map(|(_, twist, mass)| mass.kinetic_energy(twist)).sum();
+        let bodies: Real = self.dynamic().map(|(_, twist, mass)| mass.kinetic_energy(twist)).sum();
+        let kinetic = bodies + self.fluids().kinetic_energy();
         let gravity = self.settings().gravity;
         let in_gravity = |(pose, _, mass): (&Pose, &Twist, &Mass)| {
             -mass.mass * gravity.component_mul(&mass.gravity_scale).dot(&pose.position)
         };
         let mut potential: Real = self.dynamic().map(in_gravity).sum();
-        potential += self.spring_energy();
+        potential += self.spring_energy() + self.fluids().potential_energy(gravity);
         for field in self.fields() {
             let own = field.potential(self.time(), &self.columns());
             potential += own.map_err(failed(field.as_ref()))?.unwrap_or(0.0);
@@ -59,29 +60,30 @@ impl World {
         Ok(Energy { kinetic, potential, work, dissipated, correction_work })
     }
 
-    /// Σ mv over the dynamic bodies (kg·m/s).
+    /// Σ mv over the dynamic bodies and the fluids (kg·m/s).
     #[must_use]
     pub fn momentum(&self) -> Vec2 {
-        self.dynamic().map(|(_, twist, mass)| mass.mass * twist.linear).sum()
+        let bodies: Vec2 = self.dynamic().map(|(_, twist, mass)| mass.mass * twist.linear).sum();
+        bodies + self.fluids().momentum()
     }
 
-    /// Σ m(r − p) × v + Iω over the dynamic bodies (kg·m²/s), about the point p.
+    /// Σ m(r − p) × v + Iω over the dynamic bodies and the fluids (kg·m²/s), about the point p.
     #[must_use]
     pub fn angular_momentum(&self, about: Vec2) -> Real {
         let of_body = |(pose, twist, mass): (&Pose, &Twist, &Mass)| {
             let spin = if mass.inverse_inertia > 0.0 { mass.inertia * twist.angular } else { 0.0 };
             mass.mass * cross(pose.position - about, twist.linear) + spin
         };
-        self.dynamic().map(of_body).sum()
+        self.dynamic().map(of_body).sum::<Real>() + self.fluids().angular_momentum(about)
     }
 
-    /// Σ m over the dynamic bodies (kg).
+    /// Σ m over the dynamic bodies and the fluids (kg).
     #[must_use]
     pub fn mass(&self) -> Real {
-        self.dynamic().map(|(_, _, mass)| mass.mass).sum()
+        self.dynamic().map(|(_, _, mass)| mass.mass).sum::<Real>() + self.fluids().mass()
     }
 
-    /// Centre of mass of the dynamic bodies (m); the origin where there is none.
+    /// Centre of mass of the dynamic bodies and the fluids (m); the origin where there is none.
     #[must_use]
     pub fn center_of_mass(&self) -> Vec2 {
         let mass = self.mass();
@@ -89,9 +91,11 @@ impl World {
             return vec2(0.0, 0.0);
         }
         // About the first body, so that a distant origin costs no digits.
-        let origin = self.dynamic().next().map_or(vec2(0.0, 0.0), |(pose, _, _)| pose.position);
+        let first = self.fluids().particles.positions.first().copied();
+        let body = self.dynamic().next().map(|(pose, _, _)| pose.position);
+        let origin = body.or(first).unwrap_or(vec2(0.0, 0.0));
         let sum: Vec2 = self.dynamic().map(|(pose, _, m)| m.mass * (pose.position - origin)).sum();
-        origin + sum / mass
+        origin + (sum + self.fluids().first_moment(origin)) / mass
     }
 
     /// Largest net force and net torque of the fields that say they obey Newton's third law, over

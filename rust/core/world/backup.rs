@@ -61,6 +61,20 @@ impl Start {
         (self.clock, self.ledger) = (state.clock, state.ledger);
     }
 
+    /// Where a body that moves was.
+    pub fn pose(&self, body: usize) -> Option<Pose> {
+        self.of(body).map(|(_, pose, _)| *pose)
+    }
+
+    /// The velocities of a body that moves.
+    pub fn twist(&self, body: usize) -> Option<Twist> {
+        self.of(body).map(|(_, _, twist)| *twist)
+    }
+
+    fn of(&self, body: usize) -> Option<&(usize, Pose, Twist)> {
+        self.moving.iter().find(|(i, ..)| *i == body)
+    }
+
     pub fn restore(&self, state: &mut State) {
         for &(i, pose, twist) in &self.moving {
             (state.bodies.poses[i], state.bodies.twists[i]) = (pose, twist);

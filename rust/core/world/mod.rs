@@ -6,6 +6,7 @@ mod bodies;
 mod colliding;
 mod columns;
 mod contacts;
+mod fluid;
 mod joints;
 mod plan;
 mod queries;
@@ -32,6 +33,7 @@ use serde::{Deserialize, Serialize};
 use crate::arena::{Arena, HandleMap};
 use crate::body::{Bodies, ImpactLaw, Mixing};
 use crate::error::{Error, Result, check};
+use crate::fluid::Fluids;
 use crate::forces::{Air, Field, FieldHandle, ForceBuffers, ForceField, ForceSchedule, Ledger};
 use crate::forces::{Schedule, ScheduleHandle};
 use crate::joint::Joint;
@@ -107,6 +109,7 @@ struct State {
     bodies: Bodies,
     contacts: contacts::Contacts,
     joints: Arena<Joint>,
+    fluids: Fluids,
     schedules: Arena<Schedule>,
     field_map: HandleMap<Field>,
     clock: Clock,
@@ -154,6 +157,7 @@ struct WorldScratch {
     methods: Scratch,
     contacts: contacts::ContactScratch,
     joined: joints::JoinedScratch,
+    wet: fluid::WetScratch,
 }
 
 impl Default for World {

@@ -31,6 +31,20 @@ pub struct Plan {
     pub(super) colliding: Vec<u32>,
     /// Number of joints that do anything.
     pub(super) joints: usize,
+    /// Who meets whom.
+    pub(super) meeting: Meeting,
+}
+
+/// Who meets whom.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Meeting {
+    /// Nobody.
+    #[default]
+    Apart,
+    /// Bodies may meet.
+    Bodies,
+    /// There is a fluid.
+    Fluid,
 }
 
 impl Plan {
@@ -62,6 +76,13 @@ impl Plan {
             });
             plan.colliding.extend(moving.filter(|i| contacts.can_touch(*i)).map(|i| i as u32));
         }
+        plan.meeting = if !state.fluids.list.values().is_empty() {
+            Meeting::Fluid
+        } else if plan.colliding.is_empty() {
+            Meeting::Apart
+        } else {
+            Meeting::Bodies
+        };
         plan
     }
 
@@ -119,6 +140,7 @@ impl World {
             // Groups of bodies that may be gone.
             scratch.contacts.forget();
             scratch.joined.forget();
+            scratch.wet.forget();
             state.contacts.apart = kept_apart(state);
             Plan::new(state, fields.len())
         })

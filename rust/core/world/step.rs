@@ -9,10 +9,11 @@ use crate::forces::{Forces, Shown};
 use crate::math::{Real, Wrench};
 use crate::methods::closed_form::{Constant, Damping};
 use crate::methods::{Motion, Span, System, Watch};
+use crate::world::plan::Meeting;
 use crate::world::{Clock, Plan, State, StepReport, World};
 
 /// How often a step is taken because a body was thrown too far or struck a sleeping one; the last time with what it got.
-const MOST_TRIES: u32 = 6;
+pub(super) const MOST_TRIES: u32 = 6;
 
 impl World {
     /// Moves the world on by dt (s), at a fixed step.
@@ -84,10 +85,11 @@ impl World {
 
     /// The stages that move the world: those of contact only where bodies can meet.
     pub(super) fn meet_and_advance(&mut self, dt: Real) -> Result<()> {
-        if self.meets() {
-            return self.collide_and_advance(dt);
+        match self.plan.as_ref().map(|plan| plan.meeting) {
+            Some(Meeting::Bodies) => return self.collide_and_advance(dt),
+            Some(Meeting::Fluid) => return self.stage("fluid", |world| world.wade(dt)),
+            _ => self.join()?,
         }
-        self.join()?;
         self.stage("advance", |world| world.each_span(dt, World::advance_span))
     }
 
@@ -249,7 +251,7 @@ impl World {
     }
 
     /// Moves every body through a span at the fixed step.
-    fn advance_span(&mut self, span: Span) -> Result<()> {
+    pub(super) fn advance_span(&mut self, span: Span) -> Result<()> {
         // First what touches, while bodies whose motion is given still stand where the step begins.
         self.advance_contacts(span)?;
         self.advance_joined(span)?;
