@@ -44,11 +44,16 @@ fn main() -> Result<()> {
     let width = if mode == "dam" { 4.0 } else { 1.0 };
     let mut world = World::default();
     world.set_threads(threads)?;
+    world.set_substeps(number(4, 4.0) as u32)?;
     let floor = wall(&mut world, [-0.5, -0.5], [width + 0.5, 0.0])?;
     wall(&mut world, [-0.5, 0.0], [0.0, 4.0])?;
     wall(&mut world, [width, 0.0], [width + 0.5, 4.0])?;
     let water = lattice_in(&block([0.0, 0.0], [1.0, 1.0])?, spacing)?;
-    world.add_fluid(&water, spacing, Material::default())?;
+    world.add_fluid(
+        &water,
+        spacing,
+        Material { viscosity: number(5, 0.0), ..Material::default() },
+    )?;
     let n = water.len() as Real;
     let weight = world.mass() * 9.81;
     let start = world.energy()?;
@@ -73,13 +78,22 @@ fn main() -> Result<()> {
             let load = world.fluid_load(floor)?;
             println!(
                 "t {:.3} com_y {up:.4} xmax {far:.4} out {} over {over:.2e} worst {worst:.4} KE/start {:.2e} E/E0 {:.4} floor {:.4} steps {} it/step {:.1} residual {:.1e}",
-                world.time(), out.count(), energy.kinetic / start.potential,
-                energy.total() / start.total(), -load.force.y / weight, world.report().steps,
-                world.report().solves as f64 / world.report().steps as f64, world.report().residual,
+                world.time(),
+                out.count(),
+                energy.kinetic / start.potential,
+                energy.total() / start.total(),
+                -load.force.y / weight,
+                world.report().steps,
+                world.report().solves as f64 / world.report().steps as f64,
+                world.report().residual,
             );
             if mode == "hydro" && frame + 1 == frames {
                 let mut bins = [(0.0, 0.0); 10];
-                for (p, pressure) in particles.positions.iter().zip(particles.pressures.iter().zip(&particles.relaxing)) {
+                for (p, pressure) in particles
+                    .positions
+                    .iter()
+                    .zip(particles.pressures.iter().zip(&particles.relaxing))
+                {
                     let bin = &mut bins[((p.y * 10.0) as usize).min(9)];
                     bin.0 += pressure.0 + pressure.1;
                     bin.1 += 9810.0 * (1.0 - p.y).max(0.3 * spacing);
@@ -90,7 +104,9 @@ fn main() -> Result<()> {
     }
     println!(
         "{n} particles, {steps} substeps, {:.1} iterations each, {:.0} ns a particle and substep, {:.2} s a second",
-        iterations as f64 / steps as f64, used / steps as f64 / n * 1e9, used / (f64::from(frames) / 60.0)
+        iterations as f64 / steps as f64,
+        used / steps as f64 / n * 1e9,
+        used / (f64::from(frames) / 60.0)
     );
     Ok(())
 }

@@ -59,10 +59,10 @@ pub const COURANT: Real = 0.4;
 const ALONE: Real = 0.55;
 
 /// What may be left of what is to be pressed away.
-const REST: Real = 0.02;
+const REST: Real = 0.2;
 
 /// The largest mean error of densities, whatever is to be pressed away.
-const WORST: Real = 1e-4;
+const WORST: Real = 2e-4;
 
 /// Most applications of the operator of pressure a solution.
 const MOST: u32 = 300;
@@ -98,6 +98,11 @@ impl Flow {
     /// Finds what is near what, takes back the divergence, and lets the forces act. Bodies then have their velocities as
     /// they would be without the fluid's pressures but for `changes`, what all else does to them in the substep.
     pub fn begin(&mut self, fluids: &mut Fluids, bodies: &Bodies, (gravity, h): (Vec2, Real)) {
+        let team = self.team.clone();
+        team.run(|| self.prepare(fluids, bodies, (gravity, h)));
+    }
+
+    fn prepare(&mut self, fluids: &mut Fluids, bodies: &Bodies, (gravity, h): (Vec2, Real)) {
         self.neighbours(fluids, bodies, h);
         self.relax(fluids, h);
         self.force(fluids, gravity, h);
@@ -193,10 +198,17 @@ impl Flow {
     /// Finds the pressures that keep the density, where all else changes the velocities of the wet bodies by `changes`
     /// in the substep. Velocities and impulses then are those at its end.
     pub fn press(&mut self, fluids: &mut Fluids, changes: &[Twist], h: Real) {
+        let team = self.team.clone();
+        team.run(|| self.press_on(fluids, changes, h));
+    }
+
+    fn press_on(&mut self, fluids: &mut Fluids, changes: &[Twist], h: Real) {
         for (wet, change) in self.touches.wet.iter_mut().zip(changes) {
             wet.twist += *change;
         }
-        self.converge(&self.free.clone());
+        let free = std::mem::take(&mut self.free);
+        self.converge(&free);
+        self.free = free;
         for (wet, change) in self.touches.wet.iter_mut().zip(changes) {
             wet.twist += Twist::new(-change.linear, -change.angular);
         }
@@ -239,7 +251,7 @@ impl Flow {
         rates.resize(velocities.len(), 0.0);
         let wet = &self.touches.wet;
         let velocities: &[Pair] = bytemuck::cast_slice(velocities);
-        self.coupling(0.0).converge(velocities, |k| wet[k].twist, &mut rates);
+        self.coupling(0.0).converge(velocities, &|k| wet[k].twist, &mut rates);
         self.rates = rates;
     }
 

@@ -117,7 +117,12 @@ impl Fluids {
     ///
     /// # Errors
     /// A number that is not allowed; a spacing that is not that of the fluids there are.
-    pub fn add(&mut self, name: Option<String>, material: Material, spacing: Real) -> Result<FluidHandle> {
+    pub fn add(
+        &mut self,
+        name: Option<String>,
+        material: Material,
+        spacing: Real,
+    ) -> Result<FluidHandle> {
         let material = material.validated()?;
         check::positive("spacing", spacing)?;
         if !self.list.values().is_empty() && spacing != self.spacing {

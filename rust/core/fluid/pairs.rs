@@ -57,7 +57,13 @@ const CHUNK: usize = 384;
 
 impl Pairs {
     /// Finds all pairs of particles, which stand in the order of the cells.
-    pub fn find(&mut self, cells: &Cells, positions: &[Vec2], (kernel, area): (&Kernel, Real), team: &Team) {
+    pub fn find(
+        &mut self,
+        cells: &Cells,
+        positions: &[Vec2],
+        (kernel, area): (&Kernel, Real),
+        team: &Team,
+    ) {
         self.cut(cells, positions.len());
         let (used, rest) = self.chunks.split_at_mut(self.used);
         rest.iter_mut().for_each(|chunk| chunk.ends.clear());
@@ -86,12 +92,6 @@ impl Pairs {
             self.used += 1;
             start = end;
         }
-    }
-
-    /// Number of pairs.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.chunks[..self.used].iter().map(|chunk| chunk.others.len()).sum()
     }
 
     /// Sums over the neighbours of each particle; `volume` is 1/ρ of each.

@@ -81,7 +81,7 @@ impl Coupling<'_> {
     }
 
     /// Rates at which the parts are filled by these velocities of particles and of bodies.
-    pub fn converge(&self, velocities: &[Pair], twist: impl Fn(usize) -> Twist, out: &mut [Real]) {
+    pub fn converge(&self, velocities: &[Pair], twist: &dyn Fn(usize) -> Twist, out: &mut [Real]) {
         self.pairs.converge(velocities, out, self.team);
         for touch in &self.touches.list {
             let i = touch.particle as usize;
@@ -90,10 +90,15 @@ impl Coupling<'_> {
     }
 
     /// K p.
-    fn apply(&self, pressures: &[Real], (against, loads): (&mut Vec<Pair>, &mut Vec<Twist>), out: &mut [Real]) {
+    fn apply(
+        &self,
+        pressures: &[Real],
+        (against, loads): (&mut Vec<Pair>, &mut Vec<Twist>),
+        out: &mut [Real],
+    ) {
         self.act(pressures, against, loads);
         let wet = &self.touches.wet;
-        self.converge(against, |k| wet[k].response(&loads[k]), out);
+        self.converge(against, &|k| wet[k].response(&loads[k]), out);
     }
 
     /// Solves for p ≥ 0, from p; `allowed` is b.
@@ -129,7 +134,7 @@ impl Coupling<'_> {
             self.apply(q, (against, loads), image);
             effort.iterations += 1;
             let (along, curve) = dots(g, q, image);
-            if !(curve > 0.0) {
+            if curve.is_nan() || curve <= 0.0 {
                 break;
             }
             let step = along / curve;
@@ -245,7 +250,8 @@ fn advance(p: &mut [Real], g: &mut [Real], (q, image): (&[Real], &[Real]), step:
 
 /// The next direction, conjugate to the last: q = z − (z·Kq)/(q·Kq) q, z = φ/d.
 fn turn(q: &mut [Real], (p, g): (&[Real], &[Real]), (image, d): (&[Real], &[Real]), curve: Real) {
-    let scaled = |((p, g), d): ((&Real, &Real), &Real)| if *p > 0.0 && *d > 0.0 { g / d } else { 0.0 };
+    let scaled =
+        |((p, g), d): ((&Real, &Real), &Real)| if *p > 0.0 && *d > 0.0 { g / d } else { 0.0 };
     let along: Real =
         p.iter().zip(g).zip(d).map(scaled).zip(image).map(|(z, image)| z * image).sum();
     let back = along / curve;

@@ -215,7 +215,11 @@ impl Touches {
         for edge in &solid.edges {
             let ends = edge.ends.map(|end| pose.position + rot.apply(end));
             let (low, high) = (ends[0].inf(&ends[1]) - reach, ends[0].sup(&ends[1]) + reach);
-            if high.x < filled.min.x || high.y < filled.min.y || low.x > filled.max.x || low.y > filled.max.y {
+            if high.x < filled.min.x
+                || high.y < filled.min.y
+                || low.x > filled.max.x
+                || low.y > filled.max.y
+            {
                 continue;
             }
             let edge = Edge { ends, corners: edge.corners.map(|corner| rot.apply(corner)) };
@@ -261,8 +265,9 @@ impl Touches {
             if touch.depth < 0.0 {
                 shore.enclose(kernel);
             }
-            touch.part = lattice.wall * shore.part;
-            touch.slope = shore.slope * lattice.wall;
+            // The square of the part: see `Lattice::wall`.
+            touch.part = lattice.wall * shore.part * shore.part;
+            touch.slope = shore.slope * (2.0 * lattice.wall * shore.part);
             touch.friction = lattice.friction * shore.friction;
         }
     }

@@ -33,7 +33,8 @@ impl Team {
             return Ok(Self::default());
         }
         let pool = ThreadPoolBuilder::new().num_threads(threads as usize).build();
-        let pool = pool.map_err(|error| Error::invalid("threads", error, "what the system gives"))?;
+        let pool =
+            pool.map_err(|error| Error::invalid("threads", error, "what the system gives"))?;
         Ok(Self(Some(Arc::new(pool))))
     }
 

@@ -156,7 +156,10 @@ impl Friction<'_> {
             let sum = viscosity[i] + viscosity[j];
             let mean = if sum > 0.0 { 2.0 * viscosity[i] * viscosity[j] / sum } else { 0.0 };
             let pull = -factor * mean * (slope[0] * way.x + slope[1] * way.y) / square;
-            [pull * (velocities[j][0] - velocities[i][0]), pull * (velocities[j][1] - velocities[i][1])]
+            [
+                pull * (velocities[j][0] - velocities[i][0]),
+                pull * (velocities[j][1] - velocities[i][1]),
+            ]
         };
         self.pairs.exchange(&give, &mut out.particles, self.team);
         out.bodies.fill(Twist::ZERO);
@@ -176,7 +179,9 @@ impl Friction<'_> {
     fn image(&self, motion: &Motion, out: &mut Motion) {
         let twist = |k: usize| motion.bodies[k];
         self.forces(&motion.particles, &twist, out);
-        for ((out, own), density) in out.particles.iter_mut().zip(&motion.particles).zip(self.density) {
+        for ((out, own), density) in
+            out.particles.iter_mut().zip(&motion.particles).zip(self.density)
+        {
             let mass = density * self.area;
             *out = [mass * own[0] - out[0], mass * own[1] - out[1]];
         }
@@ -189,7 +194,12 @@ impl Friction<'_> {
     }
 
     /// A motion over the diagonal.
-    fn scale(&self, rest: &mut Motion, (diagonal, bodies): (&[Real], &[[Real; 3]]), out: &mut Motion) {
+    fn scale(
+        &self,
+        rest: &mut Motion,
+        (diagonal, bodies): (&[Real], &[[Real; 3]]),
+        out: &mut Motion,
+    ) {
         for ((out, rest), diagonal) in out.particles.iter_mut().zip(&rest.particles).zip(diagonal) {
             *out = [rest[0] / diagonal, rest[1] / diagonal];
         }
@@ -208,7 +218,9 @@ impl Friction<'_> {
             self.area * density + self.h * viscosity * LATTICE
         }));
         bodies.clear();
-        bodies.extend(self.touches.wet.iter().map(|wet| inertia(wet).map(|m| if m > 0.0 { m } else { 1.0 })));
+        bodies.extend(
+            self.touches.wet.iter().map(|wet| inertia(wet).map(|m| if m > 0.0 { m } else { 1.0 })),
+        );
         for touch in &self.touches.list {
             let i = touch.particle as usize;
             let pull = self.h * self.viscosity[i] * touch.friction * self.area;

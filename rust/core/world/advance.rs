@@ -64,6 +64,11 @@ impl World {
                 ));
             }
         }
+        self.planned();
+        if self.is_wet() {
+            let allowed = "a world without fluids: they move at fixed steps (World::steps)";
+            return Err(Error::invalid("tolerance", tolerance, allowed));
+        }
         if !self.is_smooth() {
             return self.advance_colliding(duration, tolerance, times, watch);
         }

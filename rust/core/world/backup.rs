@@ -1,11 +1,13 @@
 //! What a call or a step changes, kept to go back to.
 
 use crate::arena::Arena;
+use crate::fluid::Fluids;
 use crate::forces::Ledger;
 use crate::joint::Joint;
 use crate::math::{Pose, Real, Twist, Wrench};
 use crate::world::contacts::{Change, ContactBackup, Patch};
 use crate::world::joints::Memory;
+use crate::world::plan::Meeting;
 use crate::world::{Clock, Plan, State};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -28,6 +30,8 @@ pub(super) struct Backup {
     joints: Vec<Memory>,
     /// The joints, where one may break.
     breakable: Option<Arena<Joint>>,
+    /// The fluids, where there are any.
+    fluids: Option<Fluids>,
 }
 
 /// The moving part of a world at the start of a step, to take the step again.
@@ -105,6 +109,7 @@ impl Backup {
             joint.def.breaking_force.is_some() || joint.def.breaking_torque.is_some()
         };
         self.breakable = state.joints.values().iter().any(breaks).then(|| state.joints.clone());
+        self.fluids = (plan.meeting == Meeting::Fluid).then(|| state.fluids.clone());
         // What a joint that breaks tied is looked at anew.
         self.collides = !plan.colliding.is_empty() || self.breakable.is_some();
         if self.collides {
@@ -132,6 +137,9 @@ impl Backup {
         match &self.breakable {
             Some(joints) => state.joints.clone_from(joints),
             None => recall(&self.joints, state),
+        }
+        if let Some(fluids) = &self.fluids {
+            state.fluids.clone_from(fluids);
         }
         state.contacts.touching.set_changes(&self.changes);
         state.contacts.retell(state.bodies.handles());

@@ -173,8 +173,9 @@ impl World {
         let result = loop {
             let State { fluids, bodies, .. } = &self.state;
             let longest = self.scratch.wet.flow.longest(fluids, bodies, rest).min(span.h());
-            let parts = (rest / longest).ceil().max(1.0);
-            if !(parts <= MOST_PARTS) {
+            // What rounding leaves is no substep of its own.
+            let parts = (rest / longest - 1e-9).ceil().max(1.0);
+            if parts.is_nan() || parts > MOST_PARTS {
                 let hint = "the fluid or a body near it is too fast for its spacing; the world is as before the call";
                 let time = self.time();
                 break Err(Error::NotFinite { time, what: "substep", body: 0, hint });
@@ -200,7 +201,8 @@ impl World {
     fn wade_part(&mut self, span: Span, dry: &[Wrench]) -> Result<()> {
         let h = span.duration;
         let gravity = self.state.settings.gravity;
-        let before = self.state.fluids.kinetic_energy() + self.state.fluids.potential_energy(gravity);
+        let before =
+            self.state.fluids.kinetic_energy() + self.state.fluids.potential_energy(gravity);
         self.state.contacts.scale_impulses(h);
         let mut start = std::mem::take(&mut self.scratch.wet.start);
         if let Some(plan) = &self.plan {
@@ -230,7 +232,8 @@ impl World {
         result?;
         let WetScratch { flow, .. } = &mut self.scratch.wet;
         flow.finish(&mut self.state.fluids, h);
-        let after = self.state.fluids.kinetic_energy() + self.state.fluids.potential_energy(gravity);
+        let after =
+            self.state.fluids.kinetic_energy() + self.state.fluids.potential_energy(gravity);
         self.state.ledger.dissipated += before - after;
         let effort = std::mem::take(&mut self.scratch.wet.flow.effort);
         self.report.solves += u64::from(effort.iterations);
@@ -290,7 +293,10 @@ impl World {
             let wrong = Twist::new(linear - changes[k].linear, angular - changes[k].angular);
             let size = infos[i].size;
             let off = wrong.linear.norm() + size * wrong.angular.abs();
-            let scale = gravity + given.linear.norm() + linear.norm() + size * (given.angular.abs() + angular.abs());
+            let scale = gravity
+                + given.linear.norm()
+                + linear.norm()
+                + size * (given.angular.abs() + angular.abs());
             all &= off <= AGREED * scale;
             worst = worst.max(off);
             others[i] = Twist::new(linear / h, angular / h);

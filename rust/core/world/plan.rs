@@ -133,6 +133,15 @@ fn explain_joints(plan: &Plan, by: Option<&str>, line: &mut dyn FnMut(&str, &str
     line("advance", &format!("{} {joints}: {what}", plan.joints));
 }
 
+/// What is done about fluids.
+fn explain_fluid(plan: &Plan, particles: usize, line: &mut dyn FnMut(&str, &str)) {
+    if plan.meeting == Meeting::Fluid {
+        let what =
+            "in substeps of their own, in each of which pressures and all above are found in turn";
+        line("fluid", &format!("{particles} particles: {what}"));
+    }
+}
+
 impl World {
     pub(super) fn planned(&mut self) -> &Plan {
         let Self { plan, state, fields, scratch, .. } = self;
@@ -150,7 +159,9 @@ impl World {
         if !self.state.settings.sleeping {
             return;
         }
-        if plan.together > 0 {
+        if plan.meeting == Meeting::Fluid {
+            line("sleep", "not while there is a fluid");
+        } else if plan.together > 0 {
             line("sleep", "not while fields act");
         } else {
             line("sleep", &format!("{} asleep", count(self.asleep())));
@@ -205,6 +216,7 @@ impl World {
         if !self.state.schedules.values().is_empty() {
             line("advance", "split where a scheduled force changes");
         }
+        explain_fluid(&plan, self.state.fluids.particles.len(), &mut line);
         if plan.closed.is_empty() && plan.damped.is_empty() && plan.runs().next().is_none() {
             line("advance", "nothing moves");
         }

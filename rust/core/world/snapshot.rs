@@ -28,7 +28,7 @@ struct Stored {
 }
 
 /// Changes with the layout of [`State`].
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 impl World {
     /// Keeps the world as it is.

@@ -66,8 +66,7 @@ impl Accelerator {
     /// Weights of the other turns at which the sum of what is wrong is least, in the norm of energy.
     fn mix(&self, last: usize, others: &[usize]) -> Vec<Real> {
         let n = others.len();
-        let difference =
-            |k: usize| self.wrong[k].iter().zip(&self.wrong[last]).map(|(a, b)| a - b);
+        let difference = |k: usize| self.wrong[k].iter().zip(&self.wrong[last]).map(|(a, b)| a - b);
         let dot = |a: &mut dyn Iterator<Item = Real>, b: &mut dyn Iterator<Item = Real>| -> Real {
             a.zip(b).zip(&self.weights).map(|((a, b), weight)| a * b * weight).sum()
         };
@@ -84,6 +83,8 @@ impl Accelerator {
         for i in 0..n {
             matrix[(i, i)] += 1e-12 * trace + Real::MIN_POSITIVE;
         }
-        matrix.cholesky().map_or_else(|| vec![0.0; n], |factor| factor.solve(&right).as_slice().to_vec())
+        matrix
+            .cholesky()
+            .map_or_else(|| vec![0.0; n], |factor| factor.solve(&right).as_slice().to_vec())
     }
 }
