@@ -1,5 +1,7 @@
 //! Fluids: what stands still, what floats, what is conserved, what stays the same.
-#![allow(clippy::unwrap_used)] // helpers of tests, where clippy does not look for tests
+
+#![allow(clippy::unwrap_used)] // helpers of tests may, as tests do
+
 use culbuto::fluid::{Material, lattice_in};
 use culbuto::math::{Real, Vec2, vec2};
 use culbuto::shapes::{Shape, ShapeDef};
