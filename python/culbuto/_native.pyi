@@ -50,6 +50,7 @@ __all__ = [
     "Events",
     "Facts",
     "Field",
+    "Fluid",
     "Frame",
     "Joints",
     "MassProperties",
@@ -1157,6 +1158,59 @@ class Schedule:
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
 
 @final
+class Fluid:
+    """A fluid of particles. Made by `World.add_fluid`.
+
+    Arrays hold its particles in the order in which they were added.
+    """
+
+    @property
+    def density(self) -> float:
+        """Density at rest (kg/m²)."""
+    @density.setter
+    def density(self, density: float) -> None: ...
+    @property
+    def viscosity(self) -> float:
+        """Viscosity (Pa·s)."""
+    @viscosity.setter
+    def viscosity(self, viscosity: float) -> None: ...
+    @property
+    def spacing(self) -> float:
+        """Distance of its particles from one another at rest (m)."""
+    @property
+    def particle_mass(self) -> float:
+        """Mass of each of its particles (kg)."""
+    @property
+    def positions(self) -> _Array:
+        """Positions (n, 2) of its particles (m)."""
+    @property
+    def velocities(self) -> _Array:
+        """Velocities (n, 2) of its particles (m/s). May be set; all or nothing."""
+    @velocities.setter
+    def velocities(self, values: ArrayLike) -> None: ...
+    @property
+    def densities(self) -> _Array:
+        """Densities (n,) in the last substep (kg/m²); less at a free surface."""
+    @property
+    def pressures(self) -> _Array:
+        """Pressures (n,) in the last substep (Pa)."""
+    def add(self, points: ArrayLike | Shape, *, velocity: _Vec2Arg = (0.0, 0.0)) -> None:
+        """Adds particles at points (n, 2) (m), or on a lattice in a shape."""
+    def remove_particles(self, numbers: Sequence[int]) -> None:
+        """Removes particles by their numbers, those of the arrays."""
+    @property
+    def world(self) -> World:
+        """The world it is, or was, in."""
+    @property
+    def removed(self) -> bool:
+        """Whether it was removed from its world."""
+    def remove(self) -> None:
+        """Removes the fluid from its world."""
+    def __len__(self) -> int: ...
+    def __bool__(self) -> bool: ...
+    def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
+
+@final
 class SpringMotion:
     """How what hangs on a spring moves, whatever else holds its bodies left aside."""
 
@@ -2026,6 +2080,33 @@ class World:
         Times (n + 1,) are in s, world time; nothing acts before and after, and the last may be
         infinite. Steps end at each of them, so the motion is as exact as under a constant force.
         """
+    def add_fluid(
+        self,
+        points: ArrayLike | Shape,
+        *,
+        spacing: float,
+        density: float = 1000.0,
+        viscosity: float = 0.0,
+    ) -> Fluid:
+        """Adds a fluid with particles at points (n, 2) (m), or on a lattice in a shape.
+
+        The shape is given in the frame of the world. `spacing` is the distance of the particles at
+        rest (m), the same for all fluids of a world; density is in kg/m², viscosity in Pa·s.
+        """
+    @property
+    def fluids(self) -> list[Fluid]:
+        """All fluids."""
+    @property
+    def threads(self) -> int:
+        """Threads that work on fluids, 1 unless set; the bits of a run are the same on any number."""
+    @threads.setter
+    def threads(self, threads: int) -> None: ...
+    def pressure_at(self, point: _Vec2Arg) -> float | None:
+        """Pressure of the fluids at a point (Pa); None where there is none."""
+    def height_at(self, x: float) -> float | None:
+        """Height of the highest free surface above a place x (m); None where there is none."""
+    def fluid_load(self, body: Body) -> tuple[Vec2, float]:
+        """Mean force (N) and torque (N·m, about its centre) on a body in the last step."""
     def add_joint(self, joint: _AnyJoint) -> _AnyJoint:
         """Adds a joint that was drafted, and returns it.
 
@@ -2034,8 +2115,8 @@ class World:
     @property
     def joints(self) -> Joints:
         """The joints of now and of later: a view."""
-    def remove(self, part: Body | Field | Schedule | _Joint) -> None:
-        """Removes a body (and the joints and schedules on it), a joint, a field or a schedule."""
+    def remove(self, part: Body | Field | Fluid | Schedule | _Joint) -> None:
+        """Removes a body (and its joints and schedules), a joint, a field, a schedule or a fluid."""
     def find(self, name: str) -> Body | None:
         """The first body of this name, in body order; None if there is none."""
     def cast_ray(self, start: _Vec2Arg, end: _Vec2Arg, **seen: Unpack[_Seen]) -> RayHit | None:

@@ -18,6 +18,7 @@ mod custom_joint;
 mod drawing;
 mod error;
 mod field;
+mod fluid;
 mod found;
 mod hooks;
 mod joint;
@@ -62,6 +63,8 @@ mod culbuto_native {
     use crate::error::{SceneFileError, SimulationError, StaleHandleError};
     #[pymodule_export]
     use crate::field::{Attraction, Central, Field, Oscillating};
+    #[pymodule_export]
+    use crate::fluid::Fluid;
     #[pymodule_export]
     use crate::found::{Distance, Nearest, RayHit};
     #[pymodule_export]

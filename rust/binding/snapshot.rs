@@ -16,6 +16,7 @@ use crate::code::{Code, CodeParts};
 use crate::custom_joint::RuleParts;
 use crate::error::to_py;
 use crate::field::Field;
+use crate::fluid::Fluid;
 use crate::joint::Joint;
 use crate::joint_pickle::{Classes, joint_class};
 use crate::law::LawParts;
@@ -103,7 +104,8 @@ impl Objects {
         self.joints.iter().try_for_each(|joint| visit.call(joint))?;
         self.broken.iter().try_for_each(|broken| visit.call(broken))?;
         self.fields.iter().try_for_each(|field| visit.call(field))?;
-        self.schedules.iter().try_for_each(|schedule| visit.call(schedule))
+        self.schedules.iter().try_for_each(|schedule| visit.call(schedule))?;
+        self.fluids.iter().try_for_each(|fluid| visit.call(fluid))
     }
 
     fn copied(&self, py: Python<'_>) -> Self {
@@ -113,6 +115,7 @@ impl Objects {
             broken: Vec::new(),
             fields: self.fields.iter().map(|field| field.clone_ref(py)).collect(),
             schedules: self.schedules.iter().map(|schedule| schedule.clone_ref(py)).collect(),
+            fluids: self.fluids.iter().map(|fluid| fluid.clone_ref(py)).collect(),
         }
     }
 
@@ -150,6 +153,9 @@ impl Objects {
         for _ in kept.schedules() {
             objects.schedules.push(Py::new(py, Schedule { place: Place::new(world) })?);
         }
+        for _ in kept.fluid_handles() {
+            objects.fluids.push(Py::new(py, Fluid { place: Place::new(world) })?);
+        }
         Ok(objects)
     }
 
@@ -167,6 +173,9 @@ impl Objects {
         for (schedule, handle) in self.schedules.iter().zip(kept.schedule_handles()) {
             schedule.get().place.enter(*handle);
         }
+        for (fluid, handle) in self.fluids.iter().zip(kept.fluid_handles()) {
+            fluid.get().place.enter(*handle);
+        }
     }
 
     /// Takes every object out of its place. Called with the core locked.
@@ -175,6 +184,7 @@ impl Objects {
         self.joints.iter().for_each(|joint| joint.get().leave());
         self.fields.iter().for_each(|field| field.get().place.leave());
         self.schedules.iter().for_each(|schedule| schedule.get().place.leave());
+        self.fluids.iter().for_each(|fluid| fluid.get().place.leave());
     }
 
     /// Keeps the present objects of bodies whose handles are the same.
@@ -222,7 +232,7 @@ type Pickled<'py> = (
     Vec<Py<Body>>,
     Vec<Py<Joint>>,
     Vec<Py<Field>>,
-    Vec<Py<Schedule>>,
+    (Vec<Py<Schedule>>, Vec<Py<Fluid>>),
     Bound<'py, PyAny>,
 );
 
@@ -278,6 +288,9 @@ impl World {
         for (old, new) in objects.schedules.iter().zip(&made.schedules) {
             copy_attributes(old.bind(py), new.bind(py))?;
         }
+        for (old, new) in objects.fluids.iter().zip(&made.fluids) {
+            copy_attributes(old.bind(py), new.bind(py))?;
+        }
         Ok(world)
     }
 
@@ -290,9 +303,9 @@ impl World {
         drop(core);
         let data = PyBytes::new(py, &kept.to_bytes().map_err(to_py)?);
         let code = objects.code(py).parts(py);
-        let Objects { bodies, joints, fields, schedules, .. } = objects;
+        let Objects { bodies, joints, fields, schedules, fluids, .. } = objects;
         let attributes = slf.getattr("__dict__")?;
-        let state = (data, code, bodies, joints, fields, schedules, attributes);
+        let state = (data, code, bodies, joints, fields, (schedules, fluids), attributes);
         Ok((slf.get_type().into_any(), PyTuple::empty(py), state))
     }
 
@@ -310,6 +323,7 @@ impl World {
             "body" => in_slot(py, objects.bodies, slot, |body| body.get().place.slot()),
             "joint" => in_slot(py, objects.joints, slot, |joint| joint.get().slot()),
             "field" => in_slot(py, objects.fields, slot, |field| field.get().place.slot()),
+            "fluid" => in_slot(py, objects.fluids, slot, |fluid| fluid.get().place.slot()),
             _ => in_slot(py, objects.schedules, slot, |schedule| schedule.get().place.slot()),
         };
         Ok(match (found, kind) {
@@ -317,31 +331,34 @@ impl World {
             (None, "body") => Bound::new(py, Body { place: Place::new(slf) })?.into_any(),
             (None, "joint") => Joint::placed(slf, joint_class(class_)?.as_any())?.into_any(),
             (None, "field") => Bound::new(py, Field::new(slf, None))?.into_any(),
+            (None, "fluid") => Bound::new(py, Fluid { place: Place::new(slf) })?.into_any(),
             (None, _) => Bound::new(py, Schedule { place: Place::new(slf) })?.into_any(),
         })
     }
 
     fn __setstate__(slf: &Bound<'_, Self>, state: Pickled<'_>) -> PyResult<()> {
         let py = slf.py();
-        let (data, code, bodies, joints, fields, schedules, attributes) = state;
+        let (data, code, bodies, joints, fields, (schedules, fluids), attributes) = state;
         let code = Code::from_parts(py, code)?;
         let kept = code.snapshot(py, data.as_bytes())?;
         // Fields and joints are made here, around the code; their pickles find them by their place.
         let mut objects = Objects::new(slf, &kept, &code)?;
         let wanted =
             [kept.bodies().len(), kept.joints().len(), kept.fields().len(), kept.schedules().len()];
-        if [bodies.len(), joints.len(), fields.len(), schedules.len()] != wanted {
+        let given = [bodies.len(), joints.len(), fields.len(), schedules.len()];
+        if given != wanted || fluids.len() != kept.fluid_handles().len() {
             return Err(PyValueError::new_err("this is no pickled world"));
         }
         let own = |world: &Py<Self>| world.is(slf);
         let right = bodies.iter().all(|body| own(&body.get().place.world))
             && joints.iter().all(|joint| joint.get().is_of(slf))
             && fields.iter().all(|field| own(&field.get().place.world))
-            && schedules.iter().all(|schedule| own(&schedule.get().place.world));
+            && schedules.iter().all(|schedule| own(&schedule.get().place.world))
+            && fluids.iter().all(|fluid| own(&fluid.get().place.world));
         if !right {
             return Err(PyValueError::new_err("this is no pickled world"));
         }
-        (objects.bodies, objects.schedules) = (bodies, schedules);
+        (objects.bodies, objects.schedules, objects.fluids) = (bodies, schedules, fluids);
         for (joint, made) in joints.iter().zip(&objects.joints) {
             joint.get().adopt(made.get().rule().map(|rule| rule.clone_ref(py)));
         }

@@ -16,6 +16,7 @@ use crate::body::Body;
 use crate::convert::{Vec2Arg, count};
 use crate::error::to_py;
 use crate::field::Field;
+use crate::fluid::Fluid;
 use crate::hooks::Rules;
 use crate::joint::Joint;
 use crate::joints::BrokenJoint;
@@ -58,6 +59,8 @@ pub struct Objects {
     pub fields: Vec<Py<Field>>,
     /// In the order of the core's schedules.
     pub schedules: Vec<Py<Schedule>>,
+    /// In the order of the core's fluids.
+    pub fluids: Vec<Py<Fluid>>,
 }
 
 /// A number that no other living thread has.
@@ -356,7 +359,7 @@ impl World {
         Ok(self.objects().bodies.get(index).map(|body| body.clone_ref(py)))
     }
 
-    /// Removes a body (and the joints and schedules on it), a joint, a field or a schedule.
+    /// Removes a body (and the joints and schedules on it), a joint, a field, a schedule or a fluid.
     fn remove(slf: &Bound<'_, Self>, part: &Bound<'_, PyAny>) -> PyResult<()> {
         if let Ok(body) = part.cast::<Body>() {
             body.get().remove_from(slf)
@@ -366,9 +369,12 @@ impl World {
             field.get().remove_from(slf)
         } else if let Ok(schedule) = part.cast::<Schedule>() {
             schedule.get().remove_from(slf)
+        } else if let Ok(fluid) = part.cast::<Fluid>() {
+            fluid.get().remove_from(slf)
         } else {
             let kind = part.get_type().name()?;
-            let message = format!("a world holds bodies, joints, fields and schedules, no {kind}");
+            let message =
+                format!("a world holds bodies, joints, fields, schedules and fluids, no {kind}");
             Err(PyTypeError::new_err(message))
         }
     }

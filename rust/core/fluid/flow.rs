@@ -56,7 +56,7 @@ const LOOSE: Real = 0.95;
 pub const COURANT: Real = 0.4;
 
 /// The part of a kernel that is filled by particles that are near no others, 0.455, and a little more.
-const ALONE: Real = 0.55;
+pub(super) const ALONE: Real = 0.55;
 
 /// What may be left of what is to be pressed away.
 const REST: Real = 0.2;

@@ -12,6 +12,7 @@ mod kernel;
 mod pairs;
 mod particles;
 mod pressure;
+mod read;
 mod shore;
 mod solid;
 mod team;
@@ -27,7 +28,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::arena::{Arena, Handle, Named};
 use crate::error::{Error, Result, check};
-use crate::math::{Real, Vec2, cross};
+use crate::math::{Real, Twist, Vec2, cross};
 use crate::shapes::Shape;
 
 /// What names a fluid.
@@ -82,6 +83,8 @@ pub struct Fluids {
     next: u64,
     /// Materials by the slots of the fluids' handles.
     table: Vec<Material>,
+    /// What all but the fluids did to each body in the last substep, a second: what is expected of the next.
+    pub others: Vec<Twist>,
 }
 
 impl Default for Fluids {
@@ -92,6 +95,7 @@ impl Default for Fluids {
             list: Arena::default(),
             next: 0,
             table: Vec::new(),
+            others: Vec::new(),
         }
     }
 }

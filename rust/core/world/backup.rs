@@ -31,7 +31,7 @@ pub(super) struct Backup {
     /// The joints, where one may break.
     breakable: Option<Arena<Joint>>,
     /// The fluids, where there are any.
-    fluids: Option<Fluids>,
+    fluids: Fluids,
 }
 
 /// The moving part of a world at the start of a step, to take the step again.
@@ -109,12 +109,20 @@ impl Backup {
             joint.def.breaking_force.is_some() || joint.def.breaking_torque.is_some()
         };
         self.breakable = state.joints.values().iter().any(breaks).then(|| state.joints.clone());
-        self.fluids = (plan.meeting == Meeting::Fluid).then(|| state.fluids.clone());
+        if plan.meeting == Meeting::Fluid {
+            self.save_fluids(state);
+        }
         // What a joint that breaks tied is looked at anew.
         self.collides = !plan.colliding.is_empty() || self.breakable.is_some();
         if self.collides {
             self.contacts.save(&mut state.contacts);
         }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn save_fluids(&mut self, state: &State) {
+        self.fluids.clone_from(&state.fluids);
     }
 
     /// Puts the state back, and says whether forces wait for the next step.
@@ -138,8 +146,9 @@ impl Backup {
             Some(joints) => state.joints.clone_from(joints),
             None => recall(&self.joints, state),
         }
-        if let Some(fluids) = &self.fluids {
-            state.fluids.clone_from(fluids);
+        // A call that moves the world adds and removes no fluid.
+        if !state.fluids.list.values().is_empty() {
+            state.fluids.clone_from(&self.fluids);
         }
         state.contacts.touching.set_changes(&self.changes);
         state.contacts.retell(state.bodies.handles());

@@ -24,8 +24,6 @@ pub(super) struct WetScratch {
     particles: Particles,
     /// Steady forces on bodies without those of the fluid.
     dry: Vec<Wrench>,
-    /// What all but the fluid did to each body in the last substep, a second.
-    others: Vec<Twist>,
     /// The same that is expected in this substep, of each wet body.
     changes: Vec<Twist>,
     /// What the fluid did to each body in the last step (N·s).
@@ -41,6 +39,16 @@ impl WetScratch {
     /// Forgets the borders of bodies that may have changed.
     pub fn forget(&mut self) {
         self.looked = false;
+    }
+
+    /// The threads that work on fluids.
+    pub fn take_threads(&mut self) -> Team {
+        std::mem::take(&mut self.flow.team)
+    }
+
+    /// Lets these work on fluids.
+    pub fn give_threads(&mut self, team: Team) {
+        self.flow.team = team;
     }
 }
 
@@ -106,6 +114,12 @@ impl World {
         Ok(())
     }
 
+    /// How many threads work on fluids.
+    #[must_use]
+    pub fn threads(&self) -> usize {
+        self.scratch.wet.flow.team.threads()
+    }
+
     /// Mean force (N) and torque (N·m, about the centre of mass) of the fluids on a body in the last step.
     ///
     /// # Errors
@@ -122,11 +136,16 @@ impl World {
 /// The fluid's part of a step.
 impl World {
     /// One step of a world with fluids: what bodies can meet is looked for once, as without fluids.
+    #[cold]
+    #[inline(never)]
     pub(super) fn wade(&mut self, dt: Real) -> Result<()> {
+        self.stage("fluid", |world| world.wade_through(dt))
+    }
+
+    fn wade_through(&mut self, dt: Real) -> Result<()> {
         let wet = &mut self.scratch.wet;
         if !wet.looked {
             wet.flow.look(&self.state.bodies, self.state.fluids.spacing);
-            wet.others.clear();
             wet.looked = true;
         }
         let bodies = self.state.bodies.len();
@@ -246,7 +265,8 @@ impl World {
     fn expect(&mut self, dry: &[Wrench], h: Real) {
         let Self { state, scratch, .. } = self;
         let Bodies { masses, .. } = &state.bodies;
-        let WetScratch { flow, others, changes, .. } = &mut scratch.wet;
+        let WetScratch { flow, changes, .. } = &mut scratch.wet;
+        let others = &mut state.fluids.others;
         if others.len() != masses.len() {
             others.clear();
             others.extend(masses.iter().enumerate().map(|(i, mass)| {
@@ -280,7 +300,8 @@ impl World {
     fn agrees(&mut self, start: &Start, h: Real) -> bool {
         let Self { state, scratch, report, .. } = self;
         let Bodies { twists, masses, infos, .. } = &state.bodies;
-        let WetScratch { flow, others, changes, accelerator, .. } = &mut scratch.wet;
+        let WetScratch { flow, changes, accelerator, .. } = &mut scratch.wet;
+        let others = &mut state.fluids.others;
         let gravity = state.settings.gravity.norm() * h;
         let (mut worst, mut all): (Real, bool) = (0.0, true);
         accelerator.clear();

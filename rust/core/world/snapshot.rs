@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::body::BodyHandle;
 use crate::error::{Error, Result};
+use crate::fluid::FluidHandle;
 use crate::forces::{BuiltInField, FieldHandle, ForceField, Schedule, ScheduleHandle};
 use crate::joint::{Constraint, Custom, Joint, JointHandle, JointKind};
 use crate::math::Real;
@@ -37,12 +38,14 @@ impl World {
         Snapshot { state: self.state.clone(), fields: self.fields.clone() }
     }
 
-    /// Goes back to a snapshot, of this world or of another. Handles of then are valid again. The hooks of this world
-    /// stay.
+    /// Goes back to a snapshot, of this world or of another. Handles of then are valid again. The hooks and the
+    /// threads of this world stay.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         let hooks = self.hooks.take();
+        let threads = self.scratch.wet.take_threads();
         *self = Self::from_state(snapshot.state.clone(), snapshot.fields.clone());
         self.hooks = hooks;
+        self.scratch.wet.give_threads(threads);
     }
 }
 
@@ -87,6 +90,12 @@ impl Snapshot {
     #[must_use]
     pub fn schedules(&self) -> &[Schedule] {
         self.state.schedules.values()
+    }
+
+    /// Handles of its fluids.
+    #[must_use]
+    pub fn fluid_handles(&self) -> &[FluidHandle] {
+        self.state.fluids.list.handles()
     }
 
     /// World time (s).

@@ -87,7 +87,7 @@ impl World {
     pub(super) fn meet_and_advance(&mut self, dt: Real) -> Result<()> {
         match self.plan.as_ref().map(|plan| plan.meeting) {
             Some(Meeting::Bodies) => return self.collide_and_advance(dt),
-            Some(Meeting::Fluid) => return self.stage("fluid", |world| world.wade(dt)),
+            Some(Meeting::Fluid) => return self.wade(dt),
             _ => self.join()?,
         }
         self.stage("advance", |world| world.each_span(dt, World::advance_span))
@@ -160,7 +160,7 @@ impl World {
     }
 
     /// Runs a stage, timed if timing is on.
-    fn stage(
+    pub(super) fn stage(
         &mut self,
         name: &'static str,
         run: impl FnOnce(&mut Self) -> Result<()>,

@@ -27,6 +27,10 @@ impl SceneFile {
                            step first, or give the body a constant force";
             return Err(wrong(format!("bodies[{i}]"), message));
         }
+        if !world.fluids().list.values().is_empty() {
+            let message = "a scene file cannot hold a fluid; a snapshot or a pickle can";
+            return Err(wrong("fluids".to_owned(), message));
+        }
         let settings = world.settings();
         let (time, time_remainder) = world.clock();
         let fields = world.fields().iter().enumerate();
