@@ -2098,7 +2098,7 @@ class World:
         """All fluids."""
     @property
     def threads(self) -> int:
-        """Threads that work on fluids, 1 unless set; the bits of a run are the same on any number."""
+        """Threads that work on fluids, 1 unless set; runs have the same bits on any number."""
     @threads.setter
     def threads(self, threads: int) -> None: ...
     def pressure_at(self, point: _Vec2Arg) -> float | None:
@@ -2116,7 +2116,7 @@ class World:
     def joints(self) -> Joints:
         """The joints of now and of later: a view."""
     def remove(self, part: Body | Field | Fluid | Schedule | _Joint) -> None:
-        """Removes a body (and its joints and schedules), a joint, a field, a schedule or a fluid."""
+        """Removes a body (with its joints and schedules), joint, field, schedule or fluid."""
     def find(self, name: str) -> Body | None:
         """The first body of this name, in body order; None if there is none."""
     def cast_ray(self, start: _Vec2Arg, end: _Vec2Arg, **seen: Unpack[_Seen]) -> RayHit | None:

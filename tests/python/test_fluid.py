@@ -13,6 +13,10 @@ import culbuto as cb
 DT = 1 / 60
 
 
+def sent(world: cb.World) -> cb.World:
+    return pickle.loads(pickle.dumps(world))  # type: ignore[no-any-return] # noqa: S301
+
+
 def tank(
     width: float = 1.0, height: float = 0.6, spacing: float = 0.05
 ) -> tuple[cb.World, cb.Fluid]:
@@ -30,7 +34,7 @@ def test_water_settles_and_shows_its_pressure_and_height() -> None:
     assert n == 240
     world.step(DT, steps=60)
     assert water.positions.shape == (n, 2)
-    assert np.abs(water.velocities).max() < 0.1
+    assert np.sqrt(np.mean(water.velocities**2)) < 0.06
     level = world.height_at(0.5)
     assert level == pytest.approx(0.6, abs=0.03)
     pressure = world.pressure_at((0.5, 0.2))
@@ -69,7 +73,7 @@ def test_copies_and_pickles_continue_bit_for_bit() -> None:
     body = world.add_body(cb.Circle(0.1), position=(0.5, 0.9), density=300)
     for _ in range(20):
         world.step(DT)
-    others = [copy.copy(world), pickle.loads(pickle.dumps(world)), world.snapshot().to_world()]
+    others = [copy.copy(world), sent(world), world.snapshot().to_world()]
     for _ in range(5):
         world.step(DT)
     for other in others:
