@@ -1194,7 +1194,7 @@ class Fluid:
     @property
     def pressures(self) -> _Array:
         """Pressures (n,) in the last substep (Pa)."""
-    def add(self, points: ArrayLike | Shape, *, velocity: _Vec2Arg = (0.0, 0.0)) -> None:
+    def add(self, points: ArrayLike | Shape, *, velocity: _Vec2Arg = ...) -> None:
         """Adds particles at points (n, 2) (m), or on a lattice in a shape."""
     def remove_particles(self, numbers: Sequence[int]) -> None:
         """Removes particles by their numbers, those of the arrays."""

@@ -70,6 +70,8 @@ fn points_of(points: &Bound<'_, PyAny>, spacing: Real) -> PyResult<Vec<culbuto::
     Ok(points.as_array().outer_iter().map(|p| vec2(p[0], p[1])).collect())
 }
 
+const STILL: Vec2Arg = Vec2Arg(vec2(0.0, 0.0));
+
 #[pymethods]
 impl Fluid {
     /// Density at rest (kg/m²).
@@ -138,7 +140,7 @@ impl Fluid {
     }
 
     /// Adds particles at points (n, 2) (m), or on a lattice in a shape, with this velocity (m/s).
-    #[pyo3(signature = (points, *, velocity=Vec2Arg(vec2(0.0, 0.0))))]
+    #[pyo3(signature = (points, *, velocity=STILL))]
     fn add(&self, py: Python<'_>, points: &Bound<'_, PyAny>, velocity: Vec2Arg) -> PyResult<()> {
         let points = points_of(points, self.spacing(py)?)?;
         self.write(py, |fluids, fluid| fluids.pour(fluid, &points, velocity.0))

@@ -41,7 +41,7 @@ def test_water_settles_and_shows_its_pressure_and_height() -> None:
     assert pressure == pytest.approx(1000 * 9.81 * 0.4, rel=0.15)
     assert world.pressure_at((0.5, 5.0)) is None
     assert world.height_at(9.0) is None
-    force, _ = world.fluid_load(world[0])
+    force, _ = world.fluid_load(world.bodies[0])
     assert -force.y == pytest.approx(9.81 * n * water.particle_mass, rel=0.1)
     assert water.densities.shape == water.pressures.shape == (n,)
     assert world.threads == 1
