@@ -31,6 +31,8 @@ pub fn settle(
     outcome: &mut Outcome,
 ) -> RowWork {
     let width = group.links.iter().map(|link| link.width).fold(0.0, Real::max);
+    let allowed = project::MOST * width / h;
+    let mut budget = budget;
     let mut limited = false;
     let mut before = Real::INFINITY;
     for round in 0.. {
@@ -46,7 +48,7 @@ pub fn settle(
         }
         let work = group.row_work(h);
         let gives = work.gain > LITTLE * work.changed;
-        let lacks = residual * h > project::MOST * width;
+        let lacks = residual > allowed;
         let settled = residual <= budget.tolerance && (limited || !gives);
         let part = work.gain / work.changed;
         let idle = limited && !lacks && HOPE * (before - part) < part;
@@ -64,6 +66,9 @@ pub fn settle(
             limited = true;
         } else {
             before = part;
+        }
+        if lacks {
+            budget.tolerance = budget.tolerance.max(allowed);
         }
     }
     unreachable!("the last round returns")
