@@ -103,7 +103,7 @@ fn middle_of(arc: &WireArc) -> Vec2 {
 /// The core against the outer side of the wire: as against its circle, if that is met on the wire.
 fn outside(found: &mut Two, (arc, convex, frame): Seen<'_>, margin: Real) {
     let disk = Core::disk(&arc.center, arc.radius);
-    let Some(manifold) = convex_convex::collide(disk, convex, frame, margin) else { return };
+    let Ok(manifold) = convex_convex::collide(disk, convex, frame, margin) else { return };
     if let Some((normal, gap)) = normal_and_gap(&manifold, frame)
         && arc.includes(normal)
     {
@@ -136,7 +136,7 @@ pub(super) fn at_end(
     margin: Real,
 ) {
     let point = Core::disk(&end.place, 0.0);
-    let Some(mut manifold) = convex_convex::collide(point, convex, frame, margin) else { return };
+    let Ok(mut manifold) = convex_convex::collide(point, convex, frame, margin) else { return };
     for anchor in &mut manifold.anchors {
         anchor.feature = on_arc(end.number, anchor.feature as usize);
     }

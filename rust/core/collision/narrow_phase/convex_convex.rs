@@ -4,14 +4,20 @@ use super::super::{Anchor, Frame, Manifold};
 use super::axes::{Axis, Core, best};
 use super::closest::{Closest, closest};
 use super::face::Face;
-use super::{SAME, Side, joined, point_point, vertex_on_vertex};
+use super::{SAME, Side, UNKNOWN, joined, point_point, vertex_on_vertex};
 use crate::math::{Real, Vec2};
 
-/// The manifold of two convex shapes.
+/// The manifold of two convex shapes, or a gap (m) that they have at least.
 #[inline]
-pub(super) fn collide(a: Core<'_>, b: Core<'_>, b_in_a: &Frame, margin: Real) -> Option<Manifold> {
-    if let ([_], [_]) = (a.vertices, b.vertices) {
-        return corners(a, b, b_in_a, (0, 0), margin);
+pub(super) fn collide(
+    a: Core<'_>,
+    b: Core<'_>,
+    b_in_a: &Frame,
+    margin: Real,
+) -> Result<Manifold, Real> {
+    if let ([center], [other]) = (a.vertices, b.vertices) {
+        let gap = || (b_in_a.apply(*other) - center).norm() - (a.radius + b.radius);
+        return corners(a, b, b_in_a, (0, 0), margin).ok_or_else(gap);
     }
     let pair = Pair { a, b, b_in_a, a_in_b: b_in_a.inverse(), margin };
     if a.joins.is_some() || b.joins.is_some() { joined::collide(&pair) } else { free(&pair) }
@@ -47,6 +53,11 @@ impl Pair<'_> {
         self.margin + self.a.radius + self.b.radius
     }
 
+    /// Gap of the shapes that an axis shows at least (m).
+    pub fn gap(&self, axis: &Axis) -> Real {
+        axis.separation - self.a.radius - self.b.radius
+    }
+
     /// Of two axes, that of larger separation; A's where they are equal.
     pub fn larger(&self, on_a: Option<Axis>, on_b: Option<Axis>) -> Option<(Side, Axis)> {
         match (on_a, on_b) {
@@ -66,16 +77,21 @@ impl Pair<'_> {
 }
 
 /// Shapes that are joined to nothing.
-fn free(pair: &Pair<'_>) -> Option<Manifold> {
+fn free(pair: &Pair<'_>) -> Result<Manifold, Real> {
     let far = pair.farthest();
     let on_a = best(pair.a, pair.b, pair.b_in_a, far);
-    if on_a.is_some_and(|axis| axis.separation > far) {
-        return None;
+    if let Some(axis) = on_a.filter(|axis| axis.separation > far) {
+        return Err(pair.gap(&axis));
     }
     let on_b = best(pair.b, pair.a, &pair.a_in_b, far);
-    if on_b.is_some_and(|axis| axis.separation > far) {
-        return None;
+    if let Some(axis) = on_b.filter(|axis| axis.separation > far) {
+        return Err(pair.gap(&axis));
     }
+    near(pair, on_a, on_b).ok_or(UNKNOWN)
+}
+
+/// The same where no axis parts them by more than is asked.
+fn near(pair: &Pair<'_>, on_a: Option<Axis>, on_b: Option<Axis>) -> Option<Manifold> {
     let (side, axis) = pair.larger(on_a, on_b)?;
     let rounding = pair.rounding(side, &axis);
     let face = pair.face(side, axis);

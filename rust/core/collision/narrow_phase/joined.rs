@@ -1,7 +1,7 @@
 //! Links of chains and pieces of polygons: the normals that their neighbours leave them.
 
 use super::super::Manifold;
-use super::Side;
+use super::{Side, UNKNOWN};
 use super::axes::{Axis, Core, visit};
 use super::closest::{Closest, closest};
 use super::convex_convex::{Pair, is_contact};
@@ -15,18 +15,23 @@ const SLACK: Real = 1e-9;
 /// Apart, the closest features decide if the joins allow their normal, as they do without joins. Otherwise
 /// the best axis that they allow is taken, for what of the other shape stands above its face: beside it,
 /// the neighbour reports.
-pub(super) fn collide(pair: &Pair<'_>) -> Option<Manifold> {
+pub(super) fn collide(pair: &Pair<'_>) -> Result<Manifold, Real> {
     if is_behind(pair.a, pair.b_in_a.apply(pair.b.middle()))
         || is_behind(pair.b, pair.a_in_b.apply(pair.a.middle()))
     {
-        return None;
+        return Err(UNKNOWN);
     }
-    let [on_a, on_b] = [Side::A, Side::B].map(|side| bests(pair, side));
-    let (side, axis) = pair.larger(on_a.any, on_b.any)?;
+    let sides = [Side::A, Side::B].map(|side| bests(pair, side));
+    let (side, axis) = pair.larger(sides[0].any, sides[1].any).ok_or(UNKNOWN)?;
     if axis.separation > pair.farthest() {
-        return None;
+        return Err(pair.gap(&axis));
     }
-    let rounding = pair.rounding(side, &axis);
+    near(pair, (side, &axis), sides).ok_or(UNKNOWN)
+}
+
+/// The same where no axis parts them by more than is asked; the one that parts them most.
+fn near(pair: &Pair<'_>, (side, axis): (Side, &Axis), [on_a, on_b]: [Bests; 2]) -> Option<Manifold> {
+    let rounding = pair.rounding(side, axis);
     let apart = axis.separation >= -rounding;
     if apart && let Some(found) = of_closest(pair) {
         return found;

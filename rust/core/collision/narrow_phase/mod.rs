@@ -28,10 +28,21 @@ const SAME: Real = 1e-9;
 ///
 /// Apart, the closest features decide; overlapping, the axis of least penetration. Of two faces that lie as
 /// deep up to rounding, A's is the reference.
-pub fn collide(a: &Geometry, b: &Geometry, b_in_a: &Frame, margin: Real, out: &mut Vec<Manifold>) {
+///
+/// Returns a gap (m) that the two have at least: −∞ if none is known.
+pub fn collide(
+    a: &Geometry,
+    b: &Geometry,
+    b_in_a: &Frame,
+    margin: Real,
+    out: &mut Vec<Manifold>,
+) -> Real {
     match (a, b) {
         (Geometry::Convex(a), Geometry::Convex(b)) => {
-            out.extend(convex_convex::collide(Core::of(a), Core::of(b), b_in_a, margin));
+            match convex_convex::collide(Core::of(a), Core::of(b), b_in_a, margin) {
+                Ok(manifold) => out.push(manifold),
+                Err(gap) => return gap,
+            }
         }
         (Geometry::Arc(a), Geometry::Convex(b)) => {
             arc_convex::collide(a, Core::of(b), b_in_a, margin).push_to(out, false);
@@ -43,7 +54,11 @@ pub fn collide(a: &Geometry, b: &Geometry, b_in_a: &Frame, margin: Real, out: &m
             arc_arc::collide(a, b, b_in_a, margin).push_to(out, false);
         }
     }
+    UNKNOWN
 }
+
+/// A gap of which nothing is known (m).
+const UNKNOWN: Real = Real::NEG_INFINITY;
 
 /// Which collider.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! The stage that finds what touches or may touch during the step.
 
 use super::hooks::{ContactHooks, allowed};
-use super::near::Kind;
+use super::near::{Apart, Kind};
 use super::view::place_of;
 use super::{Contacts, FAR, Near, Patch, margin, swept};
 use crate::body::{Bodies, Mixing, Role};
@@ -143,8 +143,16 @@ impl Contacts {
             };
             self.map.insert(proxies[0], proxies[1], 0);
             let touch = touch(bodies, mixing, [&x.collider, &y.collider]);
-            let pair =
-                Near { proxies, touch, kind, touching: false, height: 0.0, first: 0, count: 0 };
+            let pair = Near {
+                proxies,
+                touch,
+                kind,
+                touching: false,
+                height: 0.0,
+                first: 0,
+                count: 0,
+                apart: Apart::default(),
+            };
             self.take_in(pair, bodies);
         }
         let parted = |pair: &Near, own: &Self| {
@@ -203,8 +211,13 @@ impl Contacts {
             let [i, j] = [x.body as usize, y.body as usize];
             let way = way_to_meet(bodies, step, [x, y], pair.touch.restitution);
             let margin = 0.02 * x.width.min(y.width) + way + spread(i) + spread(j);
+            let stands = frames[j].seen_from(&frames[i]);
+            if pair.kind == Kind::Solid && pair.apart.holds(&stands, y.reach, margin) {
+                continue;
+            }
             found.clear();
-            collide(&x.geometry, &y.geometry, &frames[j].seen_from(&frames[i]), margin, found);
+            let gap = collide(&x.geometry, &y.geometry, &stands, margin, found);
+            pair.apart = Apart::new(stands, gap);
             if let Kind::OneWay { solid } = &mut pair.kind {
                 let roles = pair.proxies.map(|proxy| &entries[proxy.0 as usize].role);
                 let slop = ONE_WAY_SLOP * x.width.min(y.width);
