@@ -1,10 +1,10 @@
 //! Links of chains and pieces of polygons: the normals that their neighbours leave them.
 
 use super::super::Manifold;
-use super::{Side, UNKNOWN};
 use super::axes::{Axis, Core, visit};
 use super::closest::{Closest, closest};
 use super::convex_convex::{Pair, is_contact};
+use super::{Side, UNKNOWN};
 use crate::math::{Real, Vec2};
 
 /// Angle (rad) by which a normal may leave the cone of a vertex: rounding of unit vectors, and no more.
@@ -30,7 +30,11 @@ pub(super) fn collide(pair: &Pair<'_>) -> Result<Manifold, Real> {
 }
 
 /// The same where no axis parts them by more than is asked; the one that parts them most.
-fn near(pair: &Pair<'_>, (side, axis): (Side, &Axis), [on_a, on_b]: [Bests; 2]) -> Option<Manifold> {
+fn near(
+    pair: &Pair<'_>,
+    (side, axis): (Side, &Axis),
+    [on_a, on_b]: [Bests; 2],
+) -> Option<Manifold> {
     let rounding = pair.rounding(side, axis);
     let apart = axis.separation >= -rounding;
     if apart && let Some(found) = of_closest(pair) {

@@ -138,14 +138,16 @@ impl World {
         moved.resize(masses.len(), false);
         thrown.clear();
         *watched = contacts.far;
-        let patches = if meets { &contacts.patches[..] } else { &[] };
-        for (place, patch) in patches.iter().enumerate() {
-            let near = &contacts.near[patch.near as usize];
-            if answers.get(place).is_some_and(|answer| !answer.on) {
+        let order = if meets { &contacts.order[..] } else { &[] };
+        for near in order.iter().map(|place| &contacts.near[*place as usize]) {
+            if !matches!(near.kind, Kind::Solid | Kind::OneWay { solid: true }) {
                 continue;
             }
-            if matches!(near.kind, Kind::Solid | Kind::OneWay { solid: true }) {
-                let bodies = near.proxies.map(|proxy| contacts.body_of(proxy));
+            let bodies = near.proxies.map(|proxy| contacts.body_of(proxy));
+            for place in near.patches() {
+                if answers.get(place).is_some_and(|answer| !answer.on) {
+                    continue;
+                }
                 links.push(bodies);
                 *watched |= near.touch.restitution > 0.0;
                 solid.push(place as u32);

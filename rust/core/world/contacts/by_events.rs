@@ -196,7 +196,7 @@ impl Contacts {
                 }
             }
         }
-        pairs.sort_unstable();
+        pairs.sort_unstable_by_key(|(near, _)| self.near[*near as usize].proxies);
         pairs.dedup();
         pairs
     }

@@ -36,8 +36,8 @@ impl World {
         let (contacts, bodies, settings) = (&mut state.contacts, &state.bodies, &state.settings);
         contacts.follow(bodies, &plan.colliding, step);
         contacts.pair_up(bodies, &settings.mixing, hooks.as_deref())?;
-        contacts.order(bodies, settings.gravity);
         contacts.find_manifolds(bodies, step, &mut scratch.contacts.found);
+        contacts.order(bodies, settings.gravity);
         Ok(contacts.called(bodies, |i| {
             let (way, turn) = step.motion(bodies, i);
             Twist::new(way, turn * bodies.twists[i].angular.signum())
@@ -148,7 +148,7 @@ impl Contacts {
                 touch,
                 kind,
                 touching: false,
-                height: 0.0,
+                turn: u32::MAX,
                 first: 0,
                 count: 0,
                 apart: Apart::default(),
@@ -166,33 +166,6 @@ impl Contacts {
     /// Whether a joint keeps two bodies from touching each other.
     fn kept_apart(&self, [i, j]: [usize; 2]) -> bool {
         !self.apart.is_empty() && self.apart.contains(&[i.min(j) as u32, i.max(j) as u32])
-    }
-
-    /// Orders the pairs from above down. Sweeps that follow the load settle several times sooner than those in any
-    /// order. Pairs of one height go by their numbers, whatever else is in the world.
-    fn order(&mut self, bodies: &Bodies, gravity: Vec2) {
-        let up = if gravity == Vec2::zeros() { Vec2::x() } else { -gravity.normalize() };
-        let Self { near, entries, ranks, sorted, .. } = self;
-        ranks.clear();
-        for (place, pair) in near.iter_mut().enumerate() {
-            let height = |proxy: ProxyId| {
-                let body = entries[proxy.0 as usize].collider.body as usize;
-                let free = bodies.masses[body].is_free();
-                (free, bodies.poses[body].position.dot(&up))
-            };
-            pair.height = match pair.proxies.map(height) {
-                [(true, a), (true, b)] => 0.5 * (a + b),
-                [(true, a), _] | [_, (_, a)] => a,
-            };
-            ranks.push((rank(pair.height), pair.proxies, place as u32));
-        }
-        if !ranks.is_sorted() {
-            // What is sorted is small; pairs move once.
-            ranks.sort_unstable();
-            sorted.clear();
-            sorted.extend(ranks.iter().map(|(.., place)| near[*place as usize].clone()));
-            std::mem::swap(near, sorted);
-        }
     }
 
     /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
@@ -230,12 +203,6 @@ impl Contacts {
             pair.count = patches.len() as u32 - pair.first;
         }
     }
-}
-
-/// A number that is the smaller, the larger a height is, in the order of [`Real::total_cmp`].
-fn rank(height: Real) -> u64 {
-    let bits = height.to_bits();
-    if bits >> 63 == 0 { !(bits | 1 << 63) } else { bits }
 }
 
 /// Overlap, as a part of the smaller width, with which a shape still counts as wholly on one side of a platform.

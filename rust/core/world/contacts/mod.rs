@@ -11,6 +11,7 @@ mod finer;
 mod hits;
 mod hooks;
 mod near;
+mod order;
 #[cfg(test)]
 mod packets;
 mod sleep;
@@ -65,11 +66,11 @@ pub(super) struct Contacts {
     pub touching: touching::Touching,
     #[serde(skip)]
     map: PairMap,
-    /// Ranks of the pairs, and what they are sorted into.
+    /// Places of the pairs that have manifolds, from above down, and what is sorted.
     #[serde(skip)]
-    ranks: Vec<(u64, [ProxyId; 2], u32)>,
+    pub order: Vec<u32>,
     #[serde(skip)]
-    sorted: Vec<Near>,
+    ranks: Vec<order::Rank>,
     #[serde(skip)]
     before: Vec<Patch>,
     /// Frames of the bodies' centres of mass, in body order.

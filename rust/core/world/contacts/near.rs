@@ -27,8 +27,9 @@ pub(in crate::world) struct Near {
     pub kind: Kind,
     /// Whether it touched after the last step.
     pub touching: bool,
-    /// How high it stands against gravity (m), for the order of the rows.
-    pub height: Real,
+    /// Its turn in the order of the last step.
+    #[serde(skip)]
+    pub turn: u32,
     /// Where its patches begin, and how many there are.
     pub first: u32,
     pub count: u32,

@@ -119,7 +119,7 @@ impl World {
     pub(in crate::world) fn notice(&mut self) {
         let Self { state, scratch, events, .. } = self;
         let (bodies, contacts) = (&state.bodies, &mut state.contacts);
-        contacts.see_touching(bodies, &mut scratch.contacts);
+        contacts.see_touching(bodies, state.settings.gravity, &mut scratch.contacts);
         let time = state.clock.now;
         contacts.touching.tell(time, events);
         let first = events.hit.partition_point(|hit| hit.time < scratch.contacts.start);
@@ -140,8 +140,15 @@ impl Contacts {
         (ShapePair { bodies: [a.0, b.0], parts: [a.1, b.1], sensor }, flipped)
     }
 
-    /// Looks which pairs touch now.
-    fn see_touching(&mut self, bodies: &Bodies, scratch: &mut super::ContactScratch) {
+    /// Looks which pairs touch now. What has changed is told from above down.
+    fn see_touching(
+        &mut self,
+        bodies: &Bodies,
+        gravity: Vec2,
+        scratch: &mut super::ContactScratch,
+    ) {
+        let mut changed = std::mem::take(&mut self.ranks);
+        changed.clear();
         for place in 0..self.near.len() {
             let near = &self.near[place];
             let touches = match near.kind {
@@ -150,12 +157,19 @@ impl Contacts {
                 _ => self.touches(near, bodies, scratch),
             };
             if touches != near.touching {
-                let (pair, flipped) = self.shapes_of(near, bodies.handles());
-                let spot = if touches { self.spot(near, bodies, flipped) } else { None };
-                self.touching.count(pair, touches, spot);
+                changed.push(self.rank(place as u32, bodies, gravity));
                 self.near[place].touching = touches;
             }
         }
+        changed.sort_unstable();
+        for (.., place) in &changed {
+            let near = &self.near[*place as usize];
+            let touches = near.touching;
+            let (pair, flipped) = self.shapes_of(near, bodies.handles());
+            let spot = if touches { self.spot(near, bodies, flipped) } else { None };
+            self.touching.count(pair, touches, spot);
+        }
+        self.ranks = changed;
     }
 
     /// Whether a sensor overlaps the other shape.
