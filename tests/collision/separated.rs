@@ -1,6 +1,6 @@
 //! Gaps of convex shapes against distances and depths found from all pairs of features.
 
-use culbuto::collision::Geometry;
+use culbuto::collision::{Geometry, collide};
 use proptest::prelude::*;
 
 use crate::common::{
@@ -26,6 +26,18 @@ proptest! {
         let scale = frame.position.norm() + reach(&a) + reach(&b);
         let (least, expected) = (least_gap(&found, &frame), reference_gap(&a, &b, &frame));
         prop_assert!((least - expected).abs() <= 1e-12 * scale, "{least} for {expected}: {found:?}");
+    }
+
+    #[test]
+    fn shapes_are_as_far_apart_as_is_said_where_nothing_is_found(
+        a in shapes(), b in shapes(), frame in frames(4.0), margin in 0.0..1.0,
+    ) {
+        let (a, b) = (one(a), one(b));
+        let mut found = Vec::new();
+        let said = collide(&a, &b, &frame, margin, &mut found);
+        let scale = frame.position.norm() + reach(&a) + reach(&b);
+        prop_assert!(said <= reference_gap(&a, &b, &frame) + 1e-12 * scale);
+        prop_assert!(found.is_empty() || said == f64::NEG_INFINITY);
     }
 
     #[test]
