@@ -29,7 +29,7 @@ struct Stored {
 }
 
 /// Changes with the layout of [`State`].
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 
 impl World {
     /// Keeps the world as it is.
