@@ -4,6 +4,7 @@
 mod drag;
 mod extremes;
 pub mod file;
+mod fluid;
 mod friction;
 mod gauge;
 mod impact;
@@ -224,6 +225,11 @@ pub static CATALOGUE: &[&Scene] = &[
     &extremes::GRAZING,
     &extremes::REPEATS,
     &extremes::RANDOM,
+    &fluid::COLUMN,
+    &fluid::FLOATING,
+    &fluid::RISING,
+    &fluid::DAM,
+    &fluid::MOMENTUM,
 ];
 
 /// Scenes that take minutes; `make test-full` runs them.
