@@ -2207,6 +2207,9 @@ class World:
         """`steps` steps of `dt` (s), keeping the motion at the start and after every `every`."""
     def report(self) -> StepReport:
         """What the last step or run took."""
+    @property
+    def stages(self) -> list[str]:
+        """Names of the stages that a step of this world runs now, in their order."""
     def explain(self) -> str:
         """The stages a step of this world runs, which bodies each moves, and how."""
     @staticmethod

@@ -85,7 +85,7 @@ pub fn study(
 pub fn measured_order(py: Python<'_>, name: &str, method: &str) -> PyResult<String> {
     let motion = motion_of(name)?;
     json_of(py, || {
-        let order = report::measured_order(&motion, methods::method(method)?.facts())?;
+        let order = report::measured_order(&motion, methods::method(method)?)?;
         let slope = if let Order::Slope(slope) = order { Some(slope) } else { None };
         Ok(json!({ "slope": slope, "exact": order == Order::Exact }))
     })

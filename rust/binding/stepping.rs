@@ -273,6 +273,12 @@ impl World {
         Ok(self.core(py)?.report().into())
     }
 
+    /// Names of the stages that a step of this world runs now, in their order.
+    #[getter]
+    fn stages(&self, py: Python<'_>) -> PyResult<Vec<&'static str>> {
+        Ok(self.core(py)?.stages())
+    }
+
     /// The stages a step of this world runs, which bodies each moves, and how.
     fn explain(&self, py: Python<'_>) -> PyResult<String> {
         Ok(self.core(py)?.explain())

@@ -8,6 +8,6 @@ mod verify;
 pub use laws::{Law, Laws, Limits, verify_laws};
 pub use order::{Order, measured_order};
 pub use study::{
-    Mode, Path, Row, Study, ladder_of_steps, ladder_of_tolerances, study, thrown_ball,
+    Mode, Path, Row, Study, ladder_of_steps, ladder_of_tolerances, study, study_by, thrown_ball,
 };
-pub use verify::{CheckRow, MethodRow, Verdict, verify};
+pub use verify::{CheckRow, MethodRow, Verdict, verify, verify_by};

@@ -2,7 +2,7 @@
 
 use crate::error::Result;
 use crate::math::Real;
-use crate::methods::Facts;
+use crate::methods::Method;
 use crate::report::study::{Mode, Mover, error_of};
 use crate::scenes::Motion;
 
@@ -32,8 +32,8 @@ fn rounding(steps: Real) -> Real {
 ///
 /// # Errors
 /// Those of the runs.
-pub fn measured_order(motion: &Motion, facts: &'static Facts) -> Result<Order> {
-    order_by(motion, Mover::Method(facts))
+pub fn measured_order(motion: &Motion, method: &'static dyn Method) -> Result<Order> {
+    order_by(motion, Mover::Method(method))
 }
 
 /// The same of whatever moves the bodies.

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::error::{Error, Result};
 use crate::math::Real;
-use crate::methods::{Facts, REGISTRY};
+use crate::methods::{Facts, Method, REGISTRY};
 use crate::scenes::{Answer, Judged, Motion, Scene};
 use crate::world::{Trajectory, World};
 
@@ -92,6 +92,14 @@ const SAMPLES: u32 = 64;
 /// # Errors
 /// A scene whose answer is not a motion, unknown methods, and those of the runs.
 pub fn study(scene: &Scene, what: &Study) -> Result<Vec<Row>> {
+    study_by(scene, what, &chosen(&what.methods)?)
+}
+
+/// The same by these methods, which may be your own; names in `what` do not count.
+///
+/// # Errors
+/// Those of [`study`].
+pub fn study_by(scene: &Scene, what: &Study, methods: &[&'static dyn Method]) -> Result<Vec<Row>> {
     let Answer::Motion(motion) = scene.answer else {
         return Err(Error::invalid("scene", scene.name, "a scene whose answer is a motion"));
     };
@@ -101,7 +109,7 @@ pub fn study(scene: &Scene, what: &Study) -> Result<Vec<Row>> {
         (row.scene, row.method) = (scene.name, "closed_form");
         rows.push(row);
     }
-    for mover in movers(&motion, &what.methods)? {
+    for mover in movers(&motion, methods) {
         let prepare = |world: &mut World| mover.prepare(world);
         let steps = what.steps.iter().map(|n| Mode::Step(motion.duration / Real::from(*n)));
         let tolerances = what.tolerances.iter().map(|tolerance| Mode::Tolerance(*tolerance));
@@ -125,7 +133,7 @@ fn is_contact(motion: &Motion) -> bool {
 #[derive(Clone, Copy)]
 pub(super) enum Mover {
     /// A method moves all, also what has a closed form.
-    Method(&'static Facts),
+    Method(&'static dyn Method),
     /// The contact step moves what touches, and closed forms the rest.
     ContactStep,
 }
@@ -133,53 +141,56 @@ pub(super) enum Mover {
 impl Mover {
     /// Sets up a world for it, one substep a step.
     pub(super) fn prepare(self, world: &mut World) -> Result<()> {
-        if let Self::Method(facts) = self {
+        if let Self::Method(method) = self {
             world.set_closed_form(false);
-            world.set_method(facts.name)?;
+            world.use_method(method);
         }
         world.set_substeps(1)
     }
 
     /// Its name in rows.
     pub(super) fn name(self) -> &'static str {
-        if let Self::Method(facts) = self { facts.name } else { "contact_step" }
+        self.facts().map_or("contact_step", |facts| facts.name)
     }
 
     /// The order it states.
     pub(super) fn order(self) -> u32 {
-        if let Self::Method(facts) = self { facts.order } else { 2 }
+        self.facts().map_or(2, |facts| facts.order)
     }
 
     /// Whether it is a method that moves what joints tie by itself.
     fn holds_joints(self) -> bool {
-        if let Self::Method(facts) = self { facts.joints } else { false }
+        self.facts().is_some_and(|facts| facts.joints)
     }
 
     fn is_adaptive(self) -> bool {
-        if let Self::Method(facts) = self { facts.adaptive } else { false }
+        self.facts().is_some_and(|facts| facts.adaptive)
+    }
+
+    fn facts(self) -> Option<&'static Facts> {
+        if let Self::Method(method) = self { Some(method.facts()) } else { None }
     }
 }
 
 /// What moves a scene's bodies in turn: the contact step where they touch, which the method does not change.
-pub(super) fn movers(motion: &Motion, names: &[String]) -> Result<Vec<Mover>> {
-    let methods = chosen(names)?;
-    let by_methods = methods.into_iter().map(Mover::Method);
-    Ok(match motion.judged {
+pub(super) fn movers(motion: &Motion, methods: &[&'static dyn Method]) -> Vec<Mover> {
+    let by_methods = methods.iter().copied().map(Mover::Method);
+    match motion.judged {
         Judged::Contact { .. } => vec![Mover::ContactStep],
         Judged::Joined { .. } => [Mover::ContactStep]
             .into_iter()
             .chain(by_methods.filter(|m| m.holds_joints()))
             .collect(),
         Judged::AllMethods | Judged::AsItComes => by_methods.collect(),
-    })
+    }
 }
 
 /// The methods of these names; all, where there is none.
-fn chosen(names: &[String]) -> Result<Vec<&'static Facts>> {
+fn chosen(names: &[String]) -> Result<Vec<&'static dyn Method>> {
     if names.is_empty() {
-        return Ok(REGISTRY.iter().map(|method| method.facts()).collect());
+        return Ok(REGISTRY.to_vec());
     }
-    names.iter().map(|name| Ok(crate::methods::method(name)?.facts())).collect()
+    names.iter().map(|name| crate::methods::method(name)).collect()
 }
 
 fn takes_closed_form(motion: &Motion) -> Result<bool> {

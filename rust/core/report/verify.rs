@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::error::Result;
 use crate::math::Real;
+use crate::methods::{Method, REGISTRY};
 use crate::report::order::{Order, order_by};
 use crate::report::study::{Mode, Mover, error_of, movers};
 use crate::scenes::{Answer, Column, Judged, Motion, Scene};
@@ -68,6 +69,14 @@ fn row(what: impl Into<String>, column: Column, asked: Real, measured: Real) -> 
 /// # Errors
 /// Those of the runs.
 pub fn verify(scene: &Scene) -> Result<Verdict> {
+    verify_by(scene, REGISTRY)
+}
+
+/// The same with these methods in place of those of the registry; they may be your own.
+///
+/// # Errors
+/// Those of the runs.
+pub fn verify_by(scene: &Scene, by: &[&'static dyn Method]) -> Result<Verdict> {
     let mut checks = Vec::new();
     let mut methods = Vec::new();
     match scene.answer {
@@ -81,7 +90,7 @@ pub fn verify(scene: &Scene) -> Result<Verdict> {
                     usize::MAX
                 }
             };
-            for mover in movers(&motion, &[])?.into_iter().take(most) {
+            for mover in movers(&motion, by).into_iter().take(most) {
                 methods.push(method_row(&motion, mover)?);
             }
         }

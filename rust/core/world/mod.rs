@@ -162,7 +162,10 @@ struct WorldScratch {
 
 impl Default for World {
     fn default() -> Self {
-        Self::from_state(State::default(), Vec::new())
+        let state = State::default();
+        // OK because the default names a method of the registry.
+        let method = methods::method(&state.settings.method).unwrap_or(methods::REGISTRY[0]);
+        Self::from_state(state, Vec::new(), method)
     }
 }
 
@@ -185,9 +188,11 @@ impl World {
         Ok(world)
     }
 
-    fn from_state(state: State, fields: Vec<Arc<dyn ForceField>>) -> Self {
-        // OK because the setter lets only names of the registry in, and reading a snapshot checks it.
-        let method = methods::method(&state.settings.method).unwrap_or(methods::REGISTRY[0]);
+    fn from_state(
+        state: State,
+        fields: Vec<Arc<dyn ForceField>>,
+        method: &'static dyn Method,
+    ) -> Self {
         let applied =
             state.bodies.applied.iter().any(|wrench| *wrench != crate::math::Wrench::ZERO);
         Self {
@@ -269,10 +274,16 @@ impl World {
 
     /// Chooses the method of fixed steps by name; [`methods::REGISTRY`] lists them.
     pub fn set_method(&mut self, name: &str) -> Result<()> {
-        self.method = methods::method(name)?;
-        name.clone_into(&mut self.state.settings.method);
-        self.plan = None;
+        self.use_method(methods::method(name)?);
         Ok(())
+    }
+
+    /// The same by the method itself, which may be one of your own. Snapshots in memory keep it; bytes and scene files name it, and
+    /// can only be read where the registry has the name.
+    pub fn use_method(&mut self, method: &'static dyn Method) {
+        self.method = method;
+        method.facts().name.clone_into(&mut self.state.settings.method);
+        self.plan = None;
     }
 
     /// Into how many equal substeps a step is divided (1 to 65536).

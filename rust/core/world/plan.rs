@@ -168,6 +168,25 @@ impl World {
         }
     }
 
+    /// Names of the stages that a step of this world runs now, in their order, as `explain` and the times of a report have them.
+    #[must_use]
+    pub fn stages(&self) -> Vec<&'static str> {
+        let plan = Plan::new(&self.state, self.fields.len());
+        let (meets, joins) = (!plan.colliding.is_empty(), plan.joints > 0);
+        let sleeps = self.state.settings.sleeping && plan.together == 0 && (meets || joins);
+        let all = [
+            ("plan", true),
+            ("detect", meets),
+            ("islands", meets || joins),
+            ("advance", true),
+            ("events", meets || self.state.contacts.touching.changed()),
+            ("joints", joins),
+            ("report", true),
+            ("sleep", sleeps),
+        ];
+        all.into_iter().filter(|(_, runs)| *runs).map(|(name, _)| name).collect()
+    }
+
     /// The stages a step of this world runs, which bodies each moves and how, and the time of each in
     /// the last run, if `timing` is on. What is not listed is not run, and not paid for.
     #[must_use]

@@ -10,7 +10,7 @@ use crate::fluid::FluidHandle;
 use crate::forces::{BuiltInField, FieldHandle, ForceField, Schedule, ScheduleHandle};
 use crate::joint::{Constraint, Custom, Joint, JointHandle, JointKind};
 use crate::math::Real;
-use crate::methods;
+use crate::methods::{self, Method};
 use crate::world::{State, World};
 
 /// The state of a world at one moment, fields included.
@@ -18,6 +18,7 @@ use crate::world::{State, World};
 pub struct Snapshot {
     state: State,
     fields: Vec<Arc<dyn ForceField>>,
+    method: &'static dyn Method,
 }
 
 /// What stands in a file: the state, and for each field what it is, or that it was the user's code.
@@ -35,7 +36,7 @@ impl World {
     /// Keeps the world as it is.
     #[must_use]
     pub fn snapshot(&self) -> Snapshot {
-        Snapshot { state: self.state.clone(), fields: self.fields.clone() }
+        Snapshot { state: self.state.clone(), fields: self.fields.clone(), method: self.method }
     }
 
     /// Goes back to a snapshot, of this world or of another. Handles of then are valid again. The hooks and the
@@ -43,7 +44,7 @@ impl World {
     pub fn restore(&mut self, snapshot: &Snapshot) {
         let hooks = self.hooks.take();
         let threads = self.scratch.wet.take_threads();
-        *self = Self::from_state(snapshot.state.clone(), snapshot.fields.clone());
+        *self = snapshot.to_world();
         self.hooks = hooks;
         self.scratch.wet.give_threads(threads);
     }
@@ -107,7 +108,7 @@ impl Snapshot {
     /// A world that continues from here.
     #[must_use]
     pub fn to_world(&self) -> World {
-        World::from_state(self.state.clone(), self.fields.clone())
+        World::from_state(self.state.clone(), self.fields.clone(), self.method)
     }
 
     /// The snapshot as bytes. Fields that are the user's code are not in them: [`Snapshot::from_bytes`]
@@ -150,7 +151,7 @@ impl Snapshot {
         if stored.version != VERSION {
             return Err(wrong(format!("version {}", stored.version)));
         }
-        methods::method(&stored.state.settings.method)?;
+        let method = methods::method(&stored.state.settings.method)?;
         let wanted = stored.fields.iter().filter(|field| field.is_none()).count();
         if own.len() != wanted {
             let got = format!("{} fields", own.len());
@@ -167,7 +168,7 @@ impl Snapshot {
         hand(stored.state.joints.values_mut(), constraints)?;
         stored.state.bodies.rebuild();
         stored.state.contacts.rebuild(&stored.state.bodies);
-        Ok(Self { state: stored.state, fields })
+        Ok(Self { state: stored.state, fields, method })
     }
 }
 
