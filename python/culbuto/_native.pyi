@@ -798,6 +798,9 @@ class Body:
     @angle.setter
     def angle(self, value: float, /) -> None: ...
     @property
+    def size(self) -> float:
+        """Largest distance of the outline from the centre of mass (m)."""
+    @property
     def velocity(self) -> Vec2:
         """Velocity of the centre of mass (m/s)."""
     @velocity.setter

@@ -106,6 +106,12 @@ impl Body {
         self.edit(py, |body| body.set_angle(angle))
     }
 
+    /// Largest distance of the outline from the centre of mass (m).
+    #[getter]
+    fn size(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |body| body.size())
+    }
+
     /// Velocity of the centre of mass (m/s).
     #[getter]
     fn velocity(&self, py: Python<'_>) -> PyResult<Vec2> {

@@ -55,6 +55,17 @@ def _log_axes(ax: Axes) -> None:
     )  # fmt: skip
 
 
+def _uncertain(study: Study, ax: Axes) -> None:
+    """What lies below shows the reference, not the method."""
+    if study.uncertainty > 0:
+        ax.axhspan(LEAST / 3, study.uncertainty, color=LINE.light, alpha=0.45, linewidth=0)
+        ax.text(
+            0.995, study.uncertainty, "uncertainty of the reference",
+            transform=ax.get_yaxis_transform(), ha="right", va="bottom", color=MUTED.light,
+            fontsize=SMALL,
+        )  # fmt: skip
+
+
 def _curve(ax: Axes, method: str, x: Sequence[float], rows: Sequence[Row], name: str) -> None:
     """A row of marks joined by a line; dashed, with hollow marks, for tolerances."""
     look = _look(method)
@@ -91,6 +102,7 @@ def plot_study(study: Study, ax: Axes | None = None) -> Axes:
 def plot_time(study: Study, ax: Axes) -> None:
     """Error against wall seconds for each simulated second."""
     _log_axes(ax)
+    _uncertain(study, ax)
     for method, tolerance, rows in _curves(study):
         name = _look(method).label + (", to tolerances" if tolerance else "")
         _curve(ax, method, [row.seconds_per_second for row in rows], rows, name)

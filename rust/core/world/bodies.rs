@@ -97,6 +97,12 @@ impl<'a> BodyRef<'a> {
         self.bodies.poses[self.index].angle
     }
 
+    /// Largest distance of the outline from the centre of mass (m).
+    #[must_use]
+    pub fn size(&self) -> Real {
+        self.bodies.infos[self.index].size
+    }
+
     /// Velocity of the centre of mass (m/s) and angular velocity (rad/s).
     #[must_use]
     pub fn twist(&self) -> Twist {

@@ -1,23 +1,21 @@
-"""Error against run time: a scene by several methods, at a row of steps and tolerances."""
+"""Rows of error against run time, and what they tell together."""
 
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import asdict, dataclass, fields
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from culbuto import _native
 from culbuto._json import or_infinite
-from culbuto.catalogue import Scene, find
+from culbuto.study import runs
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
     from matplotlib.axes import Axes
 
-STEPS_A_RUN = tuple(2**k for k in range(4, 15))
-TOLERANCES = tuple(10.0**-k for k in range(2, 13))
+    from culbuto.catalogue import Scene
 
 
 @dataclass(frozen=True)
@@ -85,10 +83,16 @@ def _short(value: object) -> str:
 
 @dataclass(frozen=True)
 class Study:
-    """What came of `study`."""
+    """What came of `study`.
+
+    `reference` says what rows were compared with, and `uncertainty` how far that may be off itself,
+    relative as errors are: rows below it show the reference, not the method.
+    """
 
     scene: Scene
     rows: tuple[Row, ...]
+    reference: str = "the exact answer"
+    uncertainty: float = 0.0
 
     @property
     def table(self) -> Table:
@@ -103,12 +107,23 @@ class Study:
 
     @cached_property
     def order(self) -> dict[str, Order]:
-        """Stated and measured order of each method, from runs at finer and finer steps."""
-        return {
-            method.name: _order(self.scene.name, method.name, method.order)
-            for method in _native.methods()
-            if method.name in self.methods
-        }
+        """Stated and measured order of each method, from runs at finer and finer steps.
+
+        Of a scene of the catalogue the runs are made for it; of any other the rows are taken.
+        """
+        of_catalogue = bool(self.scene.id)
+        stated = {facts.name: facts.order for facts in _native.methods()}
+        if not of_catalogue:
+            stated[runs.CONTACT_STEP] = 2
+        measure = partial(_order, self.scene.name) if of_catalogue else self._order_of_rows
+        return {name: measure(name, stated[name]) for name in self.methods if name in stated}
+
+    def _order_of_rows(self, method: str, stated: int) -> Order:
+        rows = [row for row in self.curve(method) if row.step]
+        errors = [(row.step or math.nan, row.error) for row in rows]
+        floor = max(1e-14, 4 * self.uncertainty)
+        exact = bool(rows) and all(row.error <= 1e-14 + 4e-15 * row.steps for row in rows)
+        return Order(method, stated, None if exact else runs.slope(errors, floor), exact)
 
     def curve(self, method: str, *, tolerance: bool = False) -> list[Row]:
         """Rows of one method at fixed steps, or with tolerances, as they were run."""
@@ -129,62 +144,3 @@ class Study:
 def _order(scene: str, method: str, stated: int) -> Order:
     found = json.loads(_native.measured_order(scene, method))
     return Order(method, stated, found["slope"], found["exact"])
-
-
-def study(
-    scene: str,
-    *,
-    steps: Iterable[float] | None = None,
-    tolerances: Iterable[float] | None = None,
-    methods: Sequence[str] = (),
-    repeats: int = 5,
-) -> Study:
-    """Runs a scene of the catalogue by each method, at each step and to each tolerance.
-
-    Args:
-        scene: Name or id.
-        steps: Fixed steps (s), each taken as the nearest that divides the scene's duration; by
-            default 2⁴ to 2¹⁴ steps a run.
-        tolerances: For the methods that choose their own step; by default 1e-2 to 1e-12.
-        methods: Their names; none: all.
-        repeats: Timed runs of each row, of which the median counts.
-
-    >>> import culbuto as cb
-    >>> kepler = cb.study("kepler", steps=[0.01, 0.005], tolerances=[], methods=["leapfrog"])
-    >>> [row.error < 0.02 for row in kepler.rows]
-    [True, True]
-    """
-    entry = find(scene)
-    counts = list(STEPS_A_RUN) if steps is None else _counts(entry, steps)
-    limits = list(TOLERANCES) if tolerances is None else [float(limit) for limit in tolerances]
-    if repeats < 1:
-        message = f"repeats is {repeats}; allowed: 1 or more"
-        raise ValueError(message)
-    rows = json.loads(_native.study(entry.name, (counts, limits), list(methods), repeats))
-    return Study(entry, tuple(map(Row.of, rows)))
-
-
-def _counts(scene: Scene, steps: Iterable[float]) -> list[int]:
-    duration = scene.duration or 0.0
-    counts = []
-    for step in steps:
-        if not 0 < step <= max(duration, step):
-            message = f"a step is {step}; allowed: a number of seconds above 0"
-            raise ValueError(message)
-        counts.append(max(1, round(duration / step)))
-    return counts
-
-
-@dataclass(frozen=True)
-class Path:
-    """Where a ball goes that is thrown as in S1: positions [x, y] (m) after 0, 1, 2, … ticks."""
-
-    method: str
-    ticks_per_second: int
-    points: tuple[tuple[float, float], ...]
-
-
-def thrown_ball(methods: Sequence[str], ticks_per_second: Sequence[int]) -> list[Path]:
-    """Paths of the thrown ball of S1 by each method, at each number of ticks a second."""
-    paths = json.loads(_native.thrown_ball(list(methods), list(ticks_per_second)))
-    return [Path(**{**path, "points": tuple(map(tuple, path["points"]))}) for path in paths]
