@@ -86,6 +86,7 @@ from culbuto._native import (
     methods,
     scene_schema,
 )
+from culbuto.audit import Audit
 from culbuto.catalogue import Laws, Limits, Scene, Verdict, scene, scenes, verify, verify_laws
 from culbuto.joints import (
     AngleSpringJoint,
@@ -112,6 +113,7 @@ __all__ = [
     "AngleSpringJoint",
     "Arc",
     "Attraction",
+    "Audit",
     "Body",
     "Box",
     "BrokenJoint",

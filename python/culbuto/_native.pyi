@@ -34,6 +34,7 @@ from culbuto.joints import Joint
 __all__ = [
     "Arc",
     "Attraction",
+    "Audit",
     "Body",
     "Box",
     "BrokenJoint",
@@ -1603,7 +1604,9 @@ class StepReport:
     """What the last step or run took."""
 
     __match_args__: ClassVar[
-        tuple[str, str, str, str, str, str, str, str, str, str, str, str, str, str, str, str]
+        tuple[
+            str, str, str, str, str, str, str, str, str, str, str, str, str, str, str, str, str, str
+        ]
     ]
 
     def __new__(
@@ -1619,6 +1622,8 @@ class StepReport:
         impacts: int,
         events: int,
         residual: float,
+        overlap: float,
+        gap: float,
         smallest_step: float,
         estimate: float | None,
         fallback: tuple[float, str] | None,
@@ -1665,6 +1670,12 @@ class StepReport:
     def residual(self) -> float:
         """Largest change of velocity in the last sweep of a substep (m/s): what rows still lack."""
     @property
+    def overlap(self) -> float:
+        """Deepest overlap of two shapes that touch, at the end (m)."""
+    @property
+    def gap(self) -> float:
+        """How far some joint is from what it holds, at the end (m; rad where it holds an angle)."""
+    @property
     def smallest_step(self) -> float:
         """Smallest step (s); infinite where only closed forms were needed."""
     @property
@@ -1682,6 +1693,10 @@ class StepReport:
     @property
     def trajectory(self) -> Trajectory | None:
         """The motion at the times that were asked for."""
+    def rows(self) -> list[tuple[str, str]]:
+        """Name and value of what there is to tell; what did not happen is left out."""
+    def _repr_html_(self) -> str:
+        """For notebooks."""
     def __eq__(self, value: object, /) -> bool: ...
     def __ne__(self, value: object, /) -> bool: ...
     def __reduce__(self) -> tuple[type[StepReport], tuple[Any, ...]]: ...
@@ -2527,6 +2542,14 @@ def verify_laws(
     world: World, method: str, dt: float, duration: float, limits: Sequence[float]
 ) -> str:
     """The conservation laws on a run of a copy of a world."""
+
+@final
+class Audit:
+    """The laws of a world from one moment on."""
+
+    def __new__(cls, world: World) -> Audit: ...
+    def look(self, world: World, limits: Sequence[float]) -> str:
+        """Looks at the world again; the largest deviations so far."""
 
 def study(
     name: str,

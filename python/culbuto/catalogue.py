@@ -224,11 +224,10 @@ def verify_laws(
             message = f"{name} is {number}; allowed: a finite number above 0"
             raise ValueError(message)
     found = json.loads(_native.verify_laws(world, method or world.method, dt, duration, numbers))
-    laws = tuple(
-        Law(law["name"], _measured(law), law["allowed"], law["why"]) for law in found["laws"]
-    )
-    return Laws(found["method"], laws, found["pass"])
+    return Laws(found["method"], tuple(map(law_of, found["laws"])), found["pass"])
 
 
-def _measured(law: dict[str, Any]) -> float | None:
-    return or_infinite(law["measured"]) if law["applies"] else None
+def law_of(entry: dict[str, Any]) -> Law:
+    """A law from the engine's JSON."""
+    measured = or_infinite(entry["measured"]) if entry["applies"] else None
+    return Law(entry["name"], measured, entry["allowed"], entry["why"])

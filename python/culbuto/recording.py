@@ -107,6 +107,8 @@ def _summed(reports: list[StepReport]) -> StepReport:
         sum(report.impacts for report in reports),
         sum(report.events for report in reports),
         max(report.residual for report in reports),
+        reports[-1].overlap,
+        reports[-1].gap,
         min(report.smallest_step for report in reports),
         None,
         next((report.fallback for report in reports if report.fallback), None),

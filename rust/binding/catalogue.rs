@@ -4,7 +4,7 @@
 #![allow(clippy::needless_pass_by_value, reason = "as PyO3 hands them")]
 
 use culbuto::methods;
-use culbuto::report::{self, Law, Limits, Order, Study};
+use culbuto::report::{self, Order, Study};
 use culbuto::scenes::{Answer, CATALOGUE, Motion, Scene, scene};
 use culbuto::world::Trajectory;
 use culbuto::{error::Result, math};
@@ -153,35 +153,4 @@ pub fn scene_error(
 pub fn open_scene<'py>(py: Python<'py>, name: &str) -> PyResult<Bound<'py, World>> {
     let motion = motion_of(name)?;
     World::assembled(py, (motion.build)().map_err(to_py)?, &Code::default())
-}
-
-/// The conservation laws on a run of a copy of a world. Limits: energy, momentum, angular momentum,
-/// third law.
-#[pyfunction]
-pub fn verify_laws(
-    world: &Bound<'_, World>,
-    method: &str,
-    dt: f64,
-    duration: f64,
-    limits: [f64; 4],
-) -> PyResult<String> {
-    let [energy, momentum, angular_momentum, third_law] = limits;
-    let limits = Limits { energy, momentum, angular_momentum, third_law };
-    let facts = methods::method(method).map_err(to_py)?.facts();
-    world.get().work(world.py(), |core| {
-        let found = report::verify_laws(core, facts, (dt, duration), limits)?;
-        let laws: Value = found.laws.iter().map(law).collect();
-        Ok(json!({ "method": found.method, "laws": laws, "pass": found.pass }).to_string())
-    })
-}
-
-/// A law. JSON has no infinity, so whether the law applies stands by itself.
-fn law(law: &Law) -> Value {
-    json!({
-        "name": law.name,
-        "applies": law.measured.is_some(),
-        "measured": law.measured,
-        "allowed": law.allowed,
-        "why": law.why,
-    })
 }

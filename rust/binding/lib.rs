@@ -27,10 +27,12 @@ mod joint_pickle;
 mod joint_springs;
 mod joints;
 mod law;
+mod laws;
 mod mixing;
 mod observe;
 mod parts;
 mod queries;
+mod read_out;
 mod record;
 mod scene_file;
 mod schedule;
@@ -55,7 +57,7 @@ mod culbuto_native {
     #[pymodule_export]
     use crate::catalogue::{
         catalogue, exact_motion, measured_order, open_scene, scene_error, study, thrown_ball,
-        verify, verify_laws,
+        verify,
     };
     #[pymodule_export]
     use crate::contacts::{Contact, ContactEvent, ContactEvents, Contacts, Events};
@@ -77,6 +79,8 @@ mod culbuto_native {
     use crate::joints::{BrokenJoint, Joints};
     #[pymodule_export]
     use crate::law::State;
+    #[pymodule_export]
+    use crate::laws::{Audit, verify_laws};
     #[pymodule_export]
     use crate::mixing::PairOfMaterials;
     #[pymodule_export]

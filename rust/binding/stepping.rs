@@ -40,6 +40,10 @@ record! {
         events: u64,
         /// Largest change of velocity in the last sweep of a substep (m/s): what the rows still lack.
         residual: Real,
+        /// Deepest overlap of two shapes that touch, at the end (m).
+        overlap: Real,
+        /// How far some joint is from what it holds, at the end (m, or rad where it holds an angle).
+        gap: Real,
         /// Smallest step (s); infinite where only closed forms were needed.
         smallest_step: Real,
         /// Estimated relative error; None where it was not asked for.
@@ -53,8 +57,9 @@ record! {
     }
 }
 
-impl From<&world::StepReport> for StepReport {
-    fn from(report: &world::StepReport) -> Self {
+impl From<&culbuto::World> for StepReport {
+    fn from(world: &culbuto::World) -> Self {
+        let report = world.report();
         let stages = report.stages.iter().map(|stage| (stage.name.to_owned(), stage.seconds));
         Self {
             duration: report.duration,
@@ -68,6 +73,8 @@ impl From<&world::StepReport> for StepReport {
             impacts: report.impacts,
             events: report.events,
             residual: report.residual,
+            overlap: world.overlap(),
+            gap: world.joint_gap(),
             smallest_step: report.smallest_step,
             estimate: report.estimate,
             fallback: report.fallback.map(|(time, why)| (time, why.to_owned())),
@@ -248,7 +255,7 @@ impl World {
         };
         let (mut report, trajectory) = self.work(py, |core| {
             let trajectory = core.advance_watched(duration, tolerance, &wanted, &mut signals())?;
-            Ok((StepReport::from(core.report()), trajectory))
+            Ok((StepReport::from(&*core), trajectory))
         })?;
         self.deliver(py)?;
         if times.is_some() {
@@ -270,7 +277,7 @@ impl World {
 
     /// What the last step or run took.
     fn report(&self, py: Python<'_>) -> PyResult<StepReport> {
-        Ok(self.core(py)?.report().into())
+        Ok(StepReport::from(&*self.core(py)?))
     }
 
     /// Names of the stages that a step of this world runs now, in their order.

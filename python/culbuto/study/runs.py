@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from statistics import median
 from time import perf_counter
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
@@ -18,11 +18,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from concurrent.futures import Executor
 
-    from numpy.typing import NDArray
-
     from culbuto._native import World
 
-Floats: TypeAlias = "NDArray[np.float64]"
+Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
 CONTACT_STEP = "contact_step"
 DETECT = "detect"  # the stage of a world in which bodies can meet
 MOST_SAMPLES = 64

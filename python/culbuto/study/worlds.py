@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable, Sized
+from collections.abc import Sized
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -40,7 +40,7 @@ class Case:
         return runs.DETECT in self.world.stages
 
 
-def case_of(scene: object, duration: float | None) -> Case:
+def case_of(scene: Any, duration: float | None) -> Case:  # noqa: ANN401 — the user's
     """The world that is meant, and how long it is run; `ValueError` for what is not allowed."""
     name, about, world = "world", "", scene
     if isinstance(scene, str | Path):
@@ -110,7 +110,7 @@ def _chosen(case: Case, methods: Sequence[str]) -> list[str]:
     return list(methods) or apply
 
 
-def known(case: Case, reference: object, what: Plan) -> Reference:
+def known(case: Case, reference: Any, what: Plan) -> Reference:  # noqa: ANN401 — the user's
     """What the motion is compared with."""
     if isinstance(reference, str):
         if reference != "self":
@@ -118,9 +118,8 @@ def known(case: Case, reference: object, what: Plan) -> Reference:
             raise ValueError(message)
         return runs.by_itself(case.world, case.duration, what.counts, what.samples)
     if callable(reference):
-        at = cast("Callable[[float], object]", reference)
         times = np.linspace(0, case.duration, what.samples + 1)
-        return runs.from_user([at(float(time)) for time in times], case.world, what.samples)
+        return runs.from_user([reference(float(time)) for time in times], case.world, what.samples)
     return runs.from_user(reference, case.world, what.samples)
 
 

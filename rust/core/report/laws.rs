@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::body::BodyKind;
+use crate::body::{BodyHandle, BodyKind};
 use crate::error::Result;
 use crate::math::{Real, Vec2, vec2};
 use crate::methods::Facts;
@@ -78,16 +78,63 @@ pub fn verify_laws(
     let mut world = world.clone();
     world.set_method(facts.name)?;
     let steps = (duration / dt).round().max(1.0) as u32;
-    let start = Measured::of(&world)?;
-    let mut worst = Deviations::default();
+    let mut audit = Audit::start(&world)?;
     for _ in 0..steps {
         world.step(dt)?;
-        worst.update(&start, &Measured::of(&world)?, &world);
+        audit.look(&world)?;
     }
-    let Applies { momentum, angular } = applies(&world);
+    let laws = audit.laws(&world, limits);
+    let pass = laws.iter().all(Law::kept);
+    Ok(Laws { method: facts.name, laws, pass })
+}
+
+/// The conservation laws of a world from one moment on.
+///
+/// ```
+/// # use culbuto::{World, math::vec2, report::{Audit, Limits}};
+/// let mut world = World::new(vec2(0.0, -9.81))?;
+/// let mut audit = Audit::start(&world)?;
+/// world.steps(0.01, 100)?;
+/// audit.look(&world)?;
+/// assert!(audit.laws(&world, Limits::default()).iter().all(|law| law.kept()));
+/// # Ok::<(), culbuto::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Audit {
+    start: Measured,
+    worst: Deviations,
+}
+
+impl Audit {
+    /// Begins with a world as it is.
+    ///
+    /// # Errors
+    /// A field whose potential fails.
+    pub fn start(world: &World) -> Result<Self> {
+        Ok(Self { start: Measured::of(world)?, worst: Deviations::default() })
+    }
+
+    /// Looks at the world again: the largest deviations count.
+    ///
+    /// # Errors
+    /// A field whose potential fails.
+    pub fn look(&mut self, world: &World) -> Result<()> {
+        self.worst.update(&self.start, &Measured::of(world)?, world);
+        Ok(())
+    }
+
+    /// What was found, against limits; what holds for the world as it is decides which laws apply.
+    #[must_use]
+    pub fn laws(&self, world: &World, limits: Limits) -> Vec<Law> {
+        judged(&self.worst, &applies(world), limits)
+    }
+}
+
+fn judged(worst: &Deviations, applies: &Applies, limits: Limits) -> Vec<Law> {
+    let Applies { momentum, angular } = *applies;
     let third = worst.third_law;
     let law = |name, measured, allowed, why| Law { name, measured, allowed, why };
-    let laws = vec![
+    vec![
         law(
             "energy",
             Some(worst.energy),
@@ -116,12 +163,11 @@ pub fn verify_laws(
                 "no internal field"
             },
         ),
-    ];
-    let pass = laws.iter().all(Law::kept);
-    Ok(Laws { method: facts.name, laws, pass })
+    ]
 }
 
 /// What is measured at a moment.
+#[derive(Clone, Debug)]
 struct Measured {
     time: Real,
     balance: Real,
@@ -159,7 +205,7 @@ impl Measured {
 }
 
 /// The largest deviations so far, and the scales they are measured against.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 struct Deviations {
     energy: Real,
     momentum: Real,
@@ -188,6 +234,23 @@ impl Deviations {
     }
 }
 
+/// Whether a joint ties to the world, or to a body that is not dynamic.
+fn held(world: &World) -> bool {
+    let bodies = world.bodies();
+    let gives_way = |body: &Option<BodyHandle>| {
+        body.is_some_and(|b| bodies.index(b).is_ok_and(|i| bodies.is(i, BodyKind::Dynamic)))
+    };
+    world.joints().iter().any(|joint| !joint.def.bodies.iter().all(gives_way))
+}
+
+/// Whether bodies can meet, and one of them is not dynamic.
+fn backed(world: &World) -> bool {
+    let bodies = world.bodies();
+    let fixed =
+        |i: usize| !bodies.is(i, BodyKind::Dynamic) && !bodies.infos[i].def.shapes.is_empty();
+    world.stages().contains(&"detect") && (0..bodies.len()).any(fixed)
+}
+
 /// Σ mg + F over the dynamic bodies (N).
 fn constant_force(world: &World) -> Vec2 {
     let bodies = world.bodies();
@@ -214,6 +277,10 @@ fn applies(world: &World) -> Applies {
         Err("a locked axis gives momentum")
     } else if !world.schedules().is_empty() {
         Err("a scheduled force acts")
+    } else if held(world) {
+        Err("a joint holds to what does not give way")
+    } else if backed(world) {
+        Err("bodies can meet one that does not give way")
     } else {
         Ok(())
     };

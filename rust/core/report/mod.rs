@@ -5,7 +5,7 @@ mod order;
 mod study;
 mod verify;
 
-pub use laws::{Law, Laws, Limits, verify_laws};
+pub use laws::{Audit, Law, Laws, Limits, verify_laws};
 pub use order::{Order, measured_order};
 pub use study::{
     Mode, Path, Row, Study, ladder_of_steps, ladder_of_tolerances, study, study_by, thrown_ball,

@@ -136,6 +136,16 @@ impl World {
         self.state.contacts.views(&self.state.bodies, |_| true).collect()
     }
 
+    /// Deepest overlap of two shapes that touch (m); 0 where none do.
+    #[must_use]
+    pub fn overlap(&self) -> Real {
+        let views = self.state.contacts.views(&self.state.bodies, |_| true);
+        let deepest = |contact: Contact| {
+            contact.gaps[..contact.count].iter().map(|gap| -gap).fold(0.0, Real::max)
+        };
+        views.map(deepest).fold(0.0, Real::max)
+    }
+
     /// The contacts of one body.
     ///
     /// # Errors

@@ -50,6 +50,14 @@ impl World {
         self.insert_joint(make::joint(&self.state.bodies, def, None)?)
     }
 
+    /// How far the joint that is farthest from it is from what it holds (m, or rad where it holds an angle); 0 without joints.
+    #[must_use]
+    pub fn joint_gap(&self) -> Real {
+        let bodies = &self.state.bodies;
+        let gap = |joint: &Joint| JointRef { bodies, joint }.gap();
+        self.state.joints.values().iter().map(gap).fold(0.0, Real::max)
+    }
+
     /// Adds a joint of the user's own. Its Jacobian is compared with differences of C, where the bodies stand.
     ///
     /// # Errors

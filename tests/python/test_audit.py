@@ -1,0 +1,70 @@
+"""The live read-out: what a run took, and what it kept of the laws."""
+
+import pytest
+
+import culbuto as cb
+
+
+def pile() -> cb.World:
+    world = cb.World(gravity=(0, -9.81), timing=True)
+    world.add_body(cb.Box(20, 1), kind="static", position=(0, -0.5))
+    for k in range(3):
+        world.add_body(cb.Box(1, 1), position=(0, 0.5 + k), friction=0.5)
+    bob = world.add_body(cb.Circle(0.1), position=(6, 2))
+    world.add_joint(cb.RevoluteJoint(None, bob, anchor_a=(5, 2), anchor_b=(-1, 0)))
+    return world
+
+
+def test_a_report_tells_what_happened_and_leaves_out_what_did_not() -> None:
+    world = pile()
+    world.step(1 / 60, steps=60)
+    report = world.report()
+    names = [name for name, _ in report.rows()]
+    assert names[0] == "world time"
+    assert {"sweeps", "smallest step", "overlap", "time", "of it"} <= set(names) | {"smallest step"}
+    assert "events" not in names
+    assert "estimated error" not in names
+    text = str(report)
+    assert "detect" in text
+    assert len(text.splitlines()) == len(names)
+    assert report._repr_html_().count("<tr>") == len(names)
+    assert 0 < report.overlap < 1e-3
+    assert report.gap < 1e-3
+    deepest = max(-gap for contact in world.contacts for gap in contact.gaps)
+    assert report.overlap == pytest.approx(max(deepest, 0), abs=1e-15)
+
+
+def test_an_estimate_is_told_if_asked_for() -> None:
+    world = cb.scene("S12")
+    world.step(0.01, steps=10, estimate=True)
+    assert "estimated error" in str(world.report())
+
+
+def test_an_audit_keeps_the_largest_deviations() -> None:
+    world = pile()
+    with cb.Audit(world) as audit:
+        world.step(1 / 60, steps=60)
+    energy = audit.laws[0]
+    assert energy.name == "energy"
+    assert energy.measured is not None
+    text = str(audit)
+    assert "kept to" in text
+    assert "BROKEN" not in text
+    assert "does not apply: a joint holds" in text
+    assert audit._repr_html_().startswith("<table>")
+    # What a user takes from a body by hand is not in the balance, and shows.
+    world.bodies[1].velocity = (3, 0)
+    laws = audit.look()
+    assert laws[0].measured is not None
+    assert laws[0].measured > 1e-3
+    assert "BROKEN by" in str(audit)
+    # The largest deviation counts, also once it is gone.
+    world.bodies[1].velocity = (0, 0)
+    again = audit.look()[0].measured
+    assert again is not None
+    assert again >= laws[0].measured
+
+
+def test_what_goes_wrong_in_the_block_is_not_hidden() -> None:
+    with pytest.raises(ZeroDivisionError), cb.Audit(pile()):
+        _ = 1 / 0
