@@ -40,11 +40,12 @@ class Race:
     """A scene, and its world."""
 
     def __init__(self, scene: dict[str, Any]) -> None:
-        """Makes the world; pymunk's ten iterations and other defaults stay."""
+        """Makes the world; pymunk's other defaults stay."""
         self.dt: float = scene["dt"]
         self.swing: dict[str, Any] | None = scene["swing"]
         self.space = pymunk.Space()
         self.space.gravity = tuple(scene["gravity"])
+        self.space.iterations = scene["iterations"]
         if scene["sleeping"]:
             self.space.sleep_time_threshold = TIME_TO_SLEEP
         self.bodies = [self.make_body(declared, scene) for declared in scene["bodies"]]
@@ -73,15 +74,22 @@ class Race:
         return body
 
     def make_joint(self, declared: dict[str, Any]) -> None:
-        """A hinge, with its limits and its spring as constraints of their own."""
+        """A rod or its spring; a hinge, with its limits and its spring as constraints of their own."""
         a, b = (self.bodies[k] for k in declared["bodies"])
-        parts: list[pymunk.Constraint] = [
-            pymunk.PivotJoint(a, b, *(tuple(anchor) for anchor in declared["anchors"]))
-        ]
+        ends = [tuple(anchor) for anchor in declared["anchors"]]
+        length, spring = declared["distance"], declared["spring"]
+        if length is not None:
+            part: pymunk.Constraint = pymunk.PinJoint(a, b, *ends)
+            if spring is not None:
+                constants = (spring["stiffness"], spring["damping"])
+                part = pymunk.DampedSpring(a, b, *ends, length, *constants)
+            part.collide_bodies = False
+            self.space.add(part)
+            return
+        parts: list[pymunk.Constraint] = [pymunk.PivotJoint(a, b, *ends)]
         if declared["limits"] is not None:
             parts.append(pymunk.RotaryLimitJoint(a, b, *declared["limits"]))
-        if declared["spring"] is not None:
-            spring = declared["spring"]
+        if spring is not None:
             stiffness, damping = spring["stiffness"], spring["damping"]
             parts.append(pymunk.DampedRotarySpring(a, b, 0.0, stiffness, damping))
         for part in parts:

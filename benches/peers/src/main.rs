@@ -5,8 +5,10 @@ mod page;
 mod race;
 mod scene;
 mod scenes;
+mod study;
 #[cfg(test)]
 mod tests;
+mod translate;
 mod yardstick;
 
 use std::fs;
@@ -41,6 +43,9 @@ struct Args {
     /// File for all numbers, in JSON.
     #[arg(long)]
     json: Option<PathBuf>,
+    /// Instead of races: error against run time on the scenes of Culbuto's catalogue that all engines can have; needs --json.
+    #[arg(long, requires = "json")]
+    study: bool,
     /// File for the page, in Markdown.
     #[arg(long)]
     page: Option<PathBuf>,
@@ -89,6 +94,12 @@ fn build() -> String {
 fn main() -> Result<()> {
     let args = Args::parse();
     let mut entrants = entrants(&args)?;
+    if let Some(path) = args.json.as_ref().filter(|_| args.study) {
+        let (rows, left_out) = study::run(&args.scenes, &mut entrants, &mut stderr())?;
+        let versions = engines::versions(&mut entrants)?;
+        let found = study::Study { versions, machine: machine(), build: build(), rows, left_out };
+        return Ok(fs::write(path, serde_json::to_string_pretty(&found)?)?);
+    }
     let mut report = Report {
         date: time::OffsetDateTime::now_utc().date().to_string(),
         machine: machine(),

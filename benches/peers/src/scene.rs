@@ -110,29 +110,31 @@ impl Body {
     }
 }
 
-/// A hinge. Its bodies do not touch each other.
+/// A hinge, or a rod. Its bodies do not touch each other.
 #[derive(Clone, Debug, Serialize)]
 pub struct Joint {
     /// Which bodies.
     pub bodies: [usize; 2],
     /// Where it holds each, in its frame (m).
     pub anchors: [Vec2; 2],
+    /// The anchors are kept at this distance (m) instead of together.
+    pub distance: Option<Real>,
     /// Least and greatest angle of the second against the first (rad).
     pub limits: Option<[Real; 2]>,
-    /// Draws the angle to 0.
+    /// Draws the angle to 0; of a rod, stands in its place.
     pub spring: Option<Spring>,
 }
 
-/// A spring of an angle, by what is to be seen and by what follows for the two bodies alone.
+/// A spring of an angle or a distance, by what is to be seen and by what follows for the two bodies alone.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Spring {
     /// Frequency (Hz).
     pub hertz: Real,
     /// Damping ratio.
     pub damping_ratio: Real,
-    /// k (N·m/rad).
+    /// k (N·m/rad, or N/m).
     pub stiffness: Real,
-    /// c (N·m·s/rad).
+    /// c (N·m·s/rad, or N·s/m).
     pub damping: Real,
 }
 
@@ -208,6 +210,8 @@ pub struct Scene {
     pub dt: Real,
     /// Substeps a step, of engines that divide it.
     pub substeps: u32,
+    /// Iterations a step, of engines that do not divide it.
+    pub iterations: u32,
     /// Steps of a run.
     pub steps: u32,
     /// Bodies at rest may sleep.

@@ -46,6 +46,7 @@ fn scene(name: &'static str, about: &'static str, bodies: Vec<Body>) -> Scene {
         restitution: 0.0,
         dt: 1.0 / 60.0,
         substeps: 4,
+        iterations: 10,
         steps: 500,
         sleeping: true,
         swing: None,

@@ -72,10 +72,21 @@ fn add_body(world: &mut World, scene: &Scene, declared: &Body) -> Result<BodyId>
 fn add_joint(world: &mut World, scene: &Scene, k: usize, bodies: &[BodyId]) -> Result<()> {
     let declared = &scene.joints[k];
     let [a, b] = declared.bodies.map(|body| bodies[body]);
-    let first = &scene.bodies[declared.bodies[0]];
-    let frame = Pose { position: first.position, angle: first.angle };
-    let at = pair(frame.apply(declared.anchors[0]));
-    let mut hinge = world.revolute(a, b).anchor_world(at).collide_connected(false);
+    let [first, second] = [0, 1].map(|side| {
+        let body = &scene.bodies[declared.bodies[side]];
+        let frame = Pose { position: body.position, angle: body.angle };
+        pair(frame.apply(declared.anchors[side]))
+    });
+    if let Some(length) = declared.distance {
+        let rod = world.distance(a, b).anchors_world(first, second).length(number(length));
+        let mut rod = rod.collide_connected(false);
+        if let Some(spring) = declared.spring {
+            rod = rod.spring(number(spring.hertz), number(spring.damping_ratio));
+        }
+        rod.build()?;
+        return Ok(());
+    }
+    let mut hinge = world.revolute(a, b).anchor_world(first).collide_connected(false);
     if let Some([low, high]) = declared.limits {
         hinge = hinge.limit(number(low), number(high));
     }

@@ -1,7 +1,7 @@
 //! Culbuto.
 
 use culbuto::body::{BodyDef, Filter, Friction, Part, Surface};
-use culbuto::joint::{self, JointDef, JointKind, Travel};
+use culbuto::joint::{self, Hold, JointDef, JointKind, Travel};
 use culbuto::math::{Twist, Vec2};
 use culbuto::shapes::{Shape, ShapeDef};
 use culbuto::{BodyHandle, World};
@@ -43,13 +43,19 @@ fn def(body: &Body, surface: &Surface) -> Result<BodyDef> {
     })
 }
 
-fn hinge(declared: &Joint, handles: &[BodyHandle]) -> JointDef {
+fn tie(declared: &Joint, handles: &[BodyHandle]) -> JointDef {
     let spring = declared.spring.map(|s| joint::Spring::new(s.hertz, s.damping_ratio));
     let travel = Travel { limits: declared.limits, spring, ..Travel::default() };
     let [a, b] = declared.bodies.map(|k| handles[k]);
     let [at_a, at_b] = declared.anchors;
-    JointDef::new(a, b, JointKind::Revolute { angle: Some(0.0), travel })
-        .anchored_locally(at_a, at_b)
+    let kind = match declared.distance {
+        None => JointKind::Revolute { angle: Some(0.0), travel },
+        length => {
+            let hold = spring.map_or(Hold::Rigid, Hold::Spring);
+            JointKind::Distance { length, hold, min: 0.0, max: None }
+        }
+    };
+    JointDef::new(a, b, kind).anchored_locally(at_a, at_b)
 }
 
 impl Engine for Culbuto {
@@ -65,7 +71,7 @@ impl Engine for Culbuto {
         let handles = scene.bodies.iter().map(|body| Ok(world.add_body(def(body, &surface)?)?));
         let handles = handles.collect::<Result<Vec<_>>>()?;
         for declared in &scene.joints {
-            world.add_joint(hinge(declared, &handles))?;
+            world.add_joint(tie(declared, &handles))?;
         }
         Ok(Self { world, handles })
     }

@@ -6,11 +6,12 @@ use culbuto::math::{Real, Vec2, vec2};
 use super::engine::math::Real as Number;
 use super::engine::prelude::{
     ColliderBuilder, Group, InteractionGroups, InteractionTestMode, MotorModel, PhysicsWorld,
-    RevoluteJointBuilder, RigidBody, RigidBodyBuilder, RigidBodyHandle, Vector,
+    RevoluteJointBuilder, RigidBody, RigidBodyBuilder, RigidBodyHandle, RopeJointBuilder,
+    SpringJointBuilder, Vector,
 };
 use crate::Result;
 use crate::engines::{Engine, State};
-use crate::scene::{Body, Joint, Scene, Shape};
+use crate::scene::{Body, Joint, Scene, Shape, Spring};
 
 pub struct Rapier {
     world: PhysicsWorld,
@@ -89,6 +90,20 @@ fn hinge(declared: &Joint) -> RevoluteJointBuilder {
     hinge
 }
 
+/// It has no rod; what pulls on one all the time does not notice.
+fn rope(declared: &Joint, length: Number) -> RopeJointBuilder {
+    let [a, b] = declared.anchors.map(vector);
+    RopeJointBuilder::new(length).contacts_enabled(false).local_anchor1(a).local_anchor2(b)
+}
+
+fn spring(declared: &Joint, length: Number, by: &Spring) -> SpringJointBuilder {
+    let [a, b] = declared.anchors.map(vector);
+    SpringJointBuilder::new(length, number(by.stiffness), number(by.damping))
+        .contacts_enabled(false)
+        .local_anchor1(a)
+        .local_anchor2(b)
+}
+
 impl Engine for Rapier {
     fn build(scene: &Scene) -> Result<Self> {
         let mut world = PhysicsWorld { gravity: vector(scene.gravity), ..PhysicsWorld::default() };
@@ -111,7 +126,15 @@ impl Engine for Rapier {
         }
         for declared in &scene.joints {
             let [a, b] = declared.bodies.map(|k| handles[k]);
-            world.insert_impulse_joint(a, b, hinge(declared));
+            match (declared.distance, declared.spring) {
+                (None, _) => world.insert_impulse_joint(a, b, hinge(declared)),
+                (Some(length), None) => {
+                    world.insert_impulse_joint(a, b, rope(declared, number(length)))
+                }
+                (Some(length), Some(by)) => {
+                    world.insert_impulse_joint(a, b, spring(declared, number(length), &by))
+                }
+            };
         }
         Ok(Self { world, handles })
     }

@@ -9,7 +9,7 @@ use super::{floor, real, scene};
 use crate::scene::{Body, Joint, Region, Scene, Shape, Spring};
 
 fn hinge(bodies: [usize; 2], anchors: [Vec2; 2]) -> Joint {
-    Joint { bodies, anchors, limits: None, spring: None }
+    Joint { bodies, anchors, distance: None, limits: None, spring: None }
 }
 
 /// Bars in a row from a hinge at the origin, a metre each, and at the end what hangs on it.
