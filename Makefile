@@ -7,7 +7,7 @@
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help report test check bench count peers peers-check docs package test-deep test-full clean
+.PHONY: help report report-peers test check bench count peers peers-check docs package test-deep test-full clean
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
@@ -56,6 +56,11 @@ peers: $(PEERS)/venv/installed ## Race other engines: SCENES="tumbler washer" EN
 	$(PEERS_CARGO) cargo run $(PEERS_BUILD) -- $(SCENES) --rounds $(ROUNDS) $(if $(STEPS),--steps $(STEPS)) \
 		$(if $(ENGINES),--engines $(ENGINES)) --python $(PEERS)/venv/bin/python \
 		--json $(PEERS)/race.json $(if $(PAGE),--page $(abspath $(PAGE)))
+
+report-peers: .venv/installed $(PEERS)/venv/installed ## The report with other engines on the same axes
+	mkdir -p report
+	$(PEERS_CARGO) cargo run $(PEERS_BUILD) -- --study --python $(PEERS)/venv/bin/python --json $(CURDIR)/report/peers.json
+	$(BIN)/culbuto report --output report --peers report/peers.json
 
 peers-check: $(PEERS)/venv/installed ## Formatting, lints and tests of benches/peers
 	$(PEERS_CARGO) cargo fmt --check

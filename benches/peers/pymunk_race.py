@@ -74,7 +74,7 @@ class Race:
         return body
 
     def make_joint(self, declared: dict[str, Any]) -> None:
-        """A rod or its spring; a hinge, with its limits and its spring as constraints of their own."""
+        """A rod or its spring; a hinge, its limits and its spring each a constraint."""
         a, b = (self.bodies[k] for k in declared["bodies"])
         ends = [tuple(anchor) for anchor in declared["anchors"]]
         length, spring = declared["distance"], declared["spring"]

@@ -16,13 +16,15 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from culbuto import _native
 from culbuto.report.measure import THROW_METHODS, THROWN, TICKS
-from culbuto.report.style import INK, LINE, METHODS, MUTED, PAPER, RC, Look
+from culbuto.report.style import INK, LINE, METHODS, MUTED, PAPER, PEERS, RC, Look
 from culbuto.study import Path, Row, Study, thrown_ball
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
     from matplotlib.axes import Axes
+
+    from culbuto.report.peers import Peers
 
 LEAST = 1e-17  # what is exact to the last bit is drawn there
 MOST = 10.0  # beyond, nothing is drawn
@@ -142,13 +144,28 @@ def _slopes(ax: Axes, low: float, high: float, orders: Sequence[int]) -> None:
         )  # fmt: skip
 
 
-def scene_figures(study: Study) -> tuple[Figure, Figure]:
-    """Error against time, and error against step, of one scene."""
+def _peers(ax: Axes, scene: str, peers: Peers) -> None:
+    """Other engines at their best settings, in muted colours."""
+    for engine in peers.engines(scene):
+        rows, look = peers.curve(scene, engine), PEERS[engine]
+        ax.plot(
+            [row.seconds_per_second for row in rows], [_drawn(row.error) for row in rows],
+            color=look.light, marker=look.marker, linestyle="-", linewidth=1.0, markersize=3.4,
+            markerfacecolor="none", markeredgewidth=0.9, zorder=2,
+            label=f"{look.label}, {rows[0].setting}",
+        )  # fmt: skip
+
+
+def scene_figures(study: Study, peers: Peers | None = None) -> tuple[Figure, Figure]:
+    """Error against time, with other engines where there are any, and error against step."""
     with mpl.rc_context(RC):
         time, order = (
             Figure(figsize=size, layout="constrained") for size in ((4.3, 3.4), (3.3, 3.4))
         )
-        plot_time(study, time.add_subplot(title="error against run time"))
+        ax = time.add_subplot(title="error against run time")
+        plot_time(study, ax)
+        if peers is not None:
+            _peers(ax, study.scene.name, peers)
         plot_order(study, order.add_subplot(title="error against step"))
     return time, order
 

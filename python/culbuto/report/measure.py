@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from culbuto.catalogue import Scene, Verdict
+    from culbuto.report.peers import Peers
 
 THROWN = "projectile"
 THROW_METHODS = ("explicit_euler", "semi_implicit_euler", "leapfrog")
@@ -43,6 +44,7 @@ class Results:
     throw: Study
     machine: str
     repeats: int
+    peers: Peers | None = None
 
     @property
     def rows(self) -> list[Row]:
@@ -109,5 +111,9 @@ def write_rows(results: Results, folder: Path) -> list[Path]:
         lines.writeheader()
         lines.writerows(asdict(row) for row in results.rows)
     said = {"versions": versions(), "machine": results.machine, "repeats": results.repeats}
-    data.write_text(dumps({**said, "rows": [asdict(row) for row in results.rows]}), "utf-8")
+    peers = results.peers
+    others = [] if peers is None else [asdict(row) for row in peers.rows]
+    said = {**said, "peers": [] if peers is None else list(peers.versions)}
+    rows = [asdict(row) for row in results.rows]
+    data.write_text(dumps({**said, "rows": rows, "rows_of_peers": others}), "utf-8")
     return [table, data]

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from culbuto.catalogue import Check, MethodCheck, Verdict
+    from culbuto.report.peers import Peers
     from culbuto.study import Row, Study
 
 TARGETS = (1e-2, 1e-4, 1e-8)
@@ -73,7 +74,7 @@ def worst(checks: Iterable[Check]) -> Check:
 
 def mark(method: str) -> str:
     """A method's mark in its colour, as a tiny SVG."""
-    look = style.METHODS.get(method)
+    look = {**style.METHODS, **style.PEERS}.get(method)
     if look is None:
         return ""
     colour = f"var({style.css_name(method)})"
@@ -85,7 +86,8 @@ def mark(method: str) -> str:
 
 def label(method: str) -> str:
     """A method's name for people."""
-    return style.METHODS[method].label if method in style.METHODS else method
+    looks = {**style.METHODS, **style.PEERS}
+    return looks[method].label if method in looks else method
 
 
 def write_page(results: Results, folder: Path) -> list[Path]:
@@ -111,7 +113,8 @@ def write_page(results: Results, folder: Path) -> list[Path]:
         methods=_native.methods(),
         targets=TARGETS,
         panels=panels,
-        scenes=[_scene(result) for result in results.scenes],
+        scenes=[_scene(result, results.peers) for result in results.scenes],
+        peers=results.peers,
         light=style.variables(dark=False),
         dark=style.variables(dark=True),
     )
@@ -124,7 +127,7 @@ def write_page(results: Results, folder: Path) -> list[Path]:
     return [index, throw]
 
 
-def _scene(result: SceneResult) -> dict[str, Any]:
+def _scene(result: SceneResult, peers: Peers | None) -> dict[str, Any]:
     """What the template needs of a scene."""
     drawn: list[str] = []
     if result.study is not None:
@@ -132,10 +135,11 @@ def _scene(result: SceneResult) -> dict[str, Any]:
 
         title = escape(result.scene.title, quote=True)
         names = (f"{result.scene.name}-time", f"{result.scene.name}-order")
-        figures = scene_figures(result.study)
+        figures = scene_figures(result.study, peers)
         drawn = [style.inline(f, n, title) for f, n in zip(figures, names, strict=True)]
     as_it_comes = _as_it_comes(result.verdict)
-    return {"result": result, "scene": result.scene, "verdict": result.verdict,
+    others = [] if peers is None else peers.engines(result.scene.name)
+    return {"others": others, "result": result, "scene": result.scene, "verdict": result.verdict,
             "study": result.study, "figures": drawn, **as_it_comes}  # fmt: skip
 
 

@@ -56,11 +56,17 @@ METHODS = {
     "semi_implicit_euler": Look("semi-implicit Euler", "#b98300", "#f2c14e", "v", DOWN),
     "explicit_euler": Look("explicit Euler", "#d04e12", "#ff8c5a", "X", CROSS),
 }
+PEERS = {
+    "box2d": Look("Box2D 3", "#8c564b", "#d3a99f", "d", DIAMOND),
+    "rapier-f64": Look("Rapier f64", "#4f5b66", "#b9c3cc", "h", PENTAGON),
+    "rapier-f32": Look("Rapier f32", "#8a97a3", "#7f8b96", "H", PENTAGON),
+    "pymunk": Look("pymunk", "#857a00", "#d8cf6a", "8", CIRCLE),
+}
 INK = Look("", "#24292f", "#e6edf3", "", "")
 MUTED = Look("", "#59636e", "#9aa4af", "", "")
 LINE = Look("", "#d5dbe1", "#343c46", "", "")
 PAPER = Look("", "#fefefe", "#0e1116", "", "")
-OTHERS = {"ink": INK, "muted": MUTED, "line": LINE, "paper": PAPER}
+OTHERS = {**PEERS, "ink": INK, "muted": MUTED, "line": LINE, "paper": PAPER}
 
 RC: Any = {
     "svg.fonttype": "none",
