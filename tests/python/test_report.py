@@ -126,8 +126,8 @@ def test_the_page_has_every_scene_and_method(page: Path) -> None:
         assert find(name).title in text
     for method in culbuto.methods():
         assert f"var(--{method.name.replace('_', '-')})" in text
-    # Four panels of the thrown ball, and two figures for each motion.
-    assert text.count('role="img"') == 4 + 2 * 2
+    # Four panels of the thrown ball, and a drawing and two figures for each motion.
+    assert text.count('role="img"') == 4 + 2 * 3
 
 
 def test_every_colour_is_one_for_light_and_one_for_dark(page: Path) -> None:

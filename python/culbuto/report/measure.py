@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import culbuto
 from culbuto import catalogue
 from culbuto._json import dumps
+from culbuto.report.needs import Need, needs
 from culbuto.study import Row, Study, study
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ class Results:
     throw: Study
     machine: str
     repeats: int
+    needs: tuple[Need, ...] = ()
     peers: Peers | None = None
 
     @property
@@ -72,7 +74,7 @@ def measure(
         methods=THROW_METHODS,
         repeats=1 if quick else REPEATS,
     )
-    return Results(tuple(results), throw, machine(), 1 if quick else REPEATS)
+    return Results(tuple(results), throw, machine(), 1 if quick else REPEATS, tuple(needs()))
 
 
 def _study(scene: Scene, *, quick: bool) -> Study:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from datetime import date
 from html import escape
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
 from culbuto import _native
+from culbuto.drawing import picture
 from culbuto.report import style
 from culbuto.report.measure import Results, SceneResult, versions
 
@@ -16,11 +18,12 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
     from pathlib import Path
 
-    from culbuto.catalogue import Check, MethodCheck, Verdict
+    from culbuto.catalogue import Check, MethodCheck, Scene, Verdict
     from culbuto.report.peers import Peers
     from culbuto.study import Row, Study
 
 TARGETS = (1e-2, 1e-4, 1e-8)
+PATH_POINTS = 200  # at most so many of a path are drawn, about
 
 
 def number(value: float | None) -> str:
@@ -127,6 +130,18 @@ def write_page(results: Results, folder: Path) -> list[Path]:
     return [index, throw]
 
 
+def drawing(scene: Scene) -> str:
+    """The scene as it moves, from its start (faint) to its end, as an SVG to stand in a page."""
+    world = scene.world()
+    steps = max(1, round((scene.duration or 1.0) / (scene.dt or 1.0)))
+    motion = world.record(
+        (scene.duration or 1.0) / steps, steps, every=max(1, steps // PATH_POINTS)
+    )
+    text = re.sub(r' (xmlns="[^"]*"|width="\d+" height="\d+")', "", picture(world, motion))
+    label = escape(f"{scene.title}: start, path and end", quote=True)
+    return text.replace("<svg", f'<svg class="drawing" role="img" aria-label="{label}"', 1)
+
+
 def _scene(result: SceneResult, peers: Peers | None) -> dict[str, Any]:
     """What the template needs of a scene."""
     drawn: list[str] = []
@@ -139,7 +154,8 @@ def _scene(result: SceneResult, peers: Peers | None) -> dict[str, Any]:
         drawn = [style.inline(f, n, title) for f, n in zip(figures, names, strict=True)]
     as_it_comes = _as_it_comes(result.verdict)
     others = [] if peers is None else peers.engines(result.scene.name)
-    return {"others": others, "result": result, "scene": result.scene, "verdict": result.verdict,
+    drawn_scene = drawing(result.scene) if result.study is not None else ""
+    return {"drawing": drawn_scene, "others": others, "result": result, "scene": result.scene, "verdict": result.verdict,
             "study": result.study, "figures": drawn, **as_it_comes}  # fmt: skip
 
 

@@ -52,9 +52,7 @@ class Peers:
             versions = tuple(version for _, version in found["versions"])
             return cls(rows, versions, found["build"], left_out)
         except (KeyError, TypeError) as error:
-            message = (
-                f"{path} is no study of other engines ({error}); see `make report-peers`"
-            )
+            message = f"{path} is no study of other engines ({error}); see `make report-peers`"
             raise ValueError(message) from error
 
     def engines(self, scene: str) -> list[str]:
