@@ -153,10 +153,16 @@ def _scene(result: SceneResult, peers: Peers | None) -> dict[str, Any]:
         figures = scene_figures(result.study, peers)
         drawn = [style.inline(f, n, title) for f, n in zip(figures, names, strict=True)]
     as_it_comes = _as_it_comes(result.verdict)
-    others = [] if peers is None else peers.engines(result.scene.name)
-    drawn_scene = drawing(result.scene) if result.study is not None else ""
-    return {"drawing": drawn_scene, "others": others, "result": result, "scene": result.scene, "verdict": result.verdict,
-            "study": result.study, "figures": drawn, **as_it_comes}  # fmt: skip
+    return {
+        "drawing": drawing(result.scene) if result.study is not None else "",
+        "others": [] if peers is None else peers.engines(result.scene.name),
+        "result": result,
+        "scene": result.scene,
+        "verdict": result.verdict,
+        "study": result.study,
+        "figures": drawn,
+        **as_it_comes,
+    }
 
 
 def _as_it_comes(verdict: Verdict) -> dict[str, Check | None]:
