@@ -108,12 +108,16 @@ fn native<E: Engine + 'static>(name: &'static str, package: &'static str) -> Box
     Box::new(Native::<E> { name, package, world: None })
 }
 
+/// Culbuto with all rows of a group solved at once.
+pub const AT_ONCE: &str = "culbuto-newton";
+
 /// Name of an entrant, and how it is made; `python` is an interpreter that has pymunk.
 type Maker = (&'static str, fn(python: Option<&str>) -> Result<Box<dyn Entrant>>);
 
 /// All entrants; times are compared with those of the first.
-pub const ALL: [Maker; 5] = [
-    ("culbuto", |_| Ok(native::<culbuto::Culbuto>("culbuto", "culbuto"))),
+pub const ALL: [Maker; 6] = [
+    ("culbuto", |_| Ok(native::<culbuto::Culbuto<false>>("culbuto", "culbuto"))),
+    (AT_ONCE, |_| Ok(native::<culbuto::Culbuto<true>>(AT_ONCE, "culbuto"))),
     ("rapier-f64", |_| Ok(native::<rapier_double::adapter::Rapier>("rapier-f64", "rapier2d-f64"))),
     ("rapier-f32", |_| Ok(native::<rapier_single::adapter::Rapier>("rapier-f32", "rapier2d"))),
     ("box2d", |_| Ok(native::<box2d::Box2d>("box2d", "boxdd"))),

@@ -5,6 +5,7 @@ mod page;
 mod race;
 mod scene;
 mod scenes;
+mod stability;
 mod study;
 #[cfg(test)]
 mod tests;
@@ -72,7 +73,13 @@ fn scenes(args: &Args) -> Result<Vec<Scene>> {
 fn entrants(args: &Args) -> Result<Vec<Box<dyn Entrant>>> {
     let makers = chosen(engines::ALL.to_vec(), &args.engines, |maker| maker.0)?;
     // Without Python pymunk takes part only if it is asked for, and then says what it needs.
-    let can = |name: &str| name != "pymunk" || args.python.is_some() || !args.engines.is_empty();
+    let can = |name: &str| match name {
+        _ if !args.engines.is_empty() => true,
+        "pymunk" => args.python.is_some(),
+        // It races only when asked: it is for what falls by sweeps.
+        engines::AT_ONCE => args.study,
+        _ => true,
+    };
     let able = makers.into_iter().filter(|(name, _)| can(name));
     able.map(|(_, make)| make(args.python.as_deref())).collect()
 }
@@ -97,7 +104,9 @@ fn main() -> Result<()> {
     if let Some(path) = args.json.as_ref().filter(|_| args.study) {
         let (rows, left_out) = study::run(&args.scenes, &mut entrants, &mut stderr())?;
         let versions = engines::versions(&mut entrants)?;
-        let found = study::Study { versions, machine: machine(), build: build(), rows, left_out };
+        let stability = stability::run(&mut entrants, &mut stderr())?;
+        let (machine, build) = (machine(), build());
+        let found = study::Study { versions, machine, build, rows, left_out, stability };
         return Ok(fs::write(path, serde_json::to_string_pretty(&found)?)?);
     }
     let mut report = Report {

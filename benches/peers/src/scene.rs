@@ -165,6 +165,8 @@ pub enum Region {
     Everywhere,
     /// Above this height (m).
     Above(Real),
+    /// Left of this x (m).
+    LeftOf(Real),
     /// In this disk.
     Disk {
         /// Its centre.
@@ -180,6 +182,7 @@ impl Region {
         match *self {
             Self::Everywhere => point.x.is_finite() && point.y.is_finite(),
             Self::Above(height) => point.x.is_finite() && point.y > height,
+            Self::LeftOf(x) => point.x < x,
             Self::Disk { center, radius } => (point - center).norm() < radius,
         }
     }

@@ -2,6 +2,7 @@
 //! of Box2D 3.2), with two differences: friction is 0.6 everywhere, and the tumbler's frame turns by
 //! itself instead of by a motor. The pentagons of the junkyard are regular.
 
+pub mod hard;
 mod jointed;
 
 use std::f64::consts::{PI, TAU};

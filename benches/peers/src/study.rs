@@ -10,6 +10,7 @@ use serde::Serialize;
 use crate::Result;
 use crate::engines::{Entrant, State};
 use crate::scene::Scene;
+use crate::stability::Matrix;
 use crate::translate::translate;
 
 /// One run of one scene by one engine.
@@ -48,6 +49,8 @@ pub struct Study {
     pub rows: Vec<Row>,
     /// Scenes without runs.
     pub left_out: Vec<LeftOut>,
+    /// Hard scenes.
+    pub stability: Matrix,
 }
 
 /// Substeps of engines that have them, the default first; iterations of those that have not.

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from culbuto._json import or_infinite
+from culbuto.report.stability import Line, matrix
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -41,6 +42,7 @@ class Peers:
     versions: tuple[str, ...]
     build: str
     left_out: dict[str, str]
+    stability: tuple[Line, ...]
 
     @classmethod
     def read(cls, path: Path) -> Peers:
@@ -50,7 +52,7 @@ class Peers:
             rows = tuple(PeerRow.of(row) for row in found["rows"])
             left_out = {entry["scene"]: entry["why"] for entry in found["left_out"]}
             versions = tuple(version for _, version in found["versions"])
-            return cls(rows, versions, found["build"], left_out)
+            return cls(rows, versions, found["build"], left_out, matrix(found["stability"]))
         except (KeyError, TypeError) as error:
             message = f"{path} is no study of other engines ({error}); see `make report-peers`"
             raise ValueError(message) from error

@@ -57,6 +57,8 @@ METHODS = {
     "explicit_euler": Look("explicit Euler", "#d04e12", "#ff8c5a", "X", CROSS),
 }
 PEERS = {
+    "culbuto": Look("Culbuto", "#3d6b22", "#a5d670", "p", PENTAGON),
+    "culbuto-newton": Look("Culbuto, newton", "#3d6b23", "#a5d671", "p", PENTAGON),
     "box2d": Look("Box2D 3", "#8c564b", "#d3a99f", "d", DIAMOND),
     "rapier-f64": Look("Rapier f64", "#4f5b66", "#b9c3cc", "h", PENTAGON),
     "rapier-f32": Look("Rapier f32", "#8a97a3", "#7f8b96", "H", PENTAGON),

@@ -4,13 +4,15 @@ use culbuto::body::{BodyDef, Filter, Friction, Part, Surface};
 use culbuto::joint::{self, Hold, JointDef, JointKind, Travel};
 use culbuto::math::{Twist, Vec2};
 use culbuto::shapes::{Shape, ShapeDef};
+use culbuto::solvers::Solver;
 use culbuto::{BodyHandle, World};
 
 use super::{Engine, State};
 use crate::Result;
 use crate::scene::{Body, Joint, Scene, Shape as Declared};
 
-pub struct Culbuto {
+/// All rows of a group at once, or by sweeps.
+pub struct Culbuto<const AT_ONCE: bool> {
     world: World,
     handles: Vec<BodyHandle>,
 }
@@ -58,10 +60,13 @@ fn tie(declared: &Joint, handles: &[BodyHandle]) -> JointDef {
     JointDef::new(a, b, kind).anchored_locally(at_a, at_b)
 }
 
-impl Engine for Culbuto {
+impl<const AT_ONCE: bool> Engine for Culbuto<AT_ONCE> {
     fn build(scene: &Scene) -> Result<Self> {
         let mut world = World::new(scene.gravity)?;
         world.set_substeps(scene.substeps)?;
+        if AT_ONCE {
+            world.set_solver(Solver::Newton);
+        }
         world.set_sleeping(scene.sleeping); // it has no body that starts asleep
         let surface = Surface {
             friction: Friction::of(scene.friction),

@@ -38,16 +38,22 @@ pub fn chain() -> Scene {
     Scene { joints, sleeping, region, ..scene("chain_100", about, bodies) }
 }
 
-pub fn rope() -> Scene {
+/// Bars with a disk at the end that is so many times as heavy as one of them, let go level.
+pub fn weighted(bars: u32, times: Real) -> Scene {
     // A bar weighs 0.2 kg.
-    let disk = Shape::disk(0.5);
-    let density = 100.0 * 0.2 / (PI * 0.25);
-    let end = Body { density, group: 1, ..Body::new(vec2(30.0, 0.0), vec![disk]) };
-    let (bodies, joints) = row(30, Some(end));
+    let density = times * 0.2 / (PI * 0.25);
+    let end =
+        Body { density, group: 1, ..Body::new(vec2(real(bars), 0.0), vec![Shape::disk(0.5)]) };
+    let (bodies, joints) = row(bars, Some(end));
     let (sleeping, region) = (false, Region::Everywhere);
+    let about = "20 bars hinged end to end with a disk of 1000 times their mass, let go level";
+    Scene { joints, sleeping, region, ..scene("chain, 1000 at its end", about, bodies) }
+}
+
+pub fn rope() -> Scene {
     let about =
         "30 bars hinged end to end with a disk of 100 times their mass at the end, let go level";
-    Scene { joints, sleeping, region, ..scene("rope_30", about, bodies) }
+    Scene { name: "rope_30", about, ..weighted(30, 100.0) }
 }
 
 pub fn joint_grid() -> Scene {
