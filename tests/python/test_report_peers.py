@@ -46,7 +46,10 @@ FOUND = {
     "left_out": [{"scene": "kepler", "why": "a field acts"}],
     "stability": {
         "scenes": [
-            {"name": "stack", "about": "squares", "figure": "largest way over its size", "seconds": 10}
+            {
+                "name": "stack", "about": "squares", "seconds": 10,
+                "figure": "largest way over its size",
+            }
         ],
         "cells": [
             cell("culbuto", 30, "right", 1e-3), cell("culbuto", 60, "right", 1e-3),
@@ -119,5 +122,5 @@ def test_the_page_has_them_and_says_who_is_missing(file: Path, tmp_path: Path) -
     assert "1 substep" in text
     _, data = write_rows(together, tmp_path)
     written = json.loads(data.read_text("utf-8"))
-    assert len(written["rows_of_peers"]) == len(FOUND["rows"])  # type: ignore[arg-type]
+    assert len(written["rows_of_peers"]) == len(FOUND["rows"])
     assert written["peers"] == ["culbuto 1", "boxdd 2", "pymunk 3"]
