@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 
 Floats: TypeAlias = np.ndarray[Any, np.dtype[np.float64]]
 CONTACT_STEP = "contact_step"
-DETECT = "detect"  # the stage of a world in which bodies can meet
 MOST_SAMPLES = 64
 FINEST_TOLERANCES = (1e-13, 1e-11)  # of the reference, and of what it is compared with
 FINER = (4, 2)  # times as many steps as the finest row, likewise
@@ -123,13 +122,17 @@ def run_all(jobs: Sequence[Job], executor: Executor | None) -> list[Ran | None]:
     return [future.result() for future in futures]
 
 
+def meets(world: World) -> bool:
+    """Whether bodies can meet one another, or a fluid."""
+    return "detect" in world.stages or bool(world.fluids)
+
+
 def methods_of(world: World) -> list[str]:
     """What can move a world: the contact step where bodies can meet, methods where they cannot."""
-    stages = world.stages
     facts = _native.methods()
-    if DETECT in stages:
+    if meets(world):
         return [CONTACT_STEP]
-    if "joints" in stages:
+    if "joints" in world.stages:
         return [CONTACT_STEP, *(method.name for method in facts if method.joints)]
     return [method.name for method in facts]
 
@@ -170,7 +173,7 @@ def by_itself(world: World, duration: float, counts: Sequence[int], samples: int
     a quarter and a half of the finest step, whose gap bounds the error of the finer run if its
     order is 1 or more (Richardson, 1911).
     """
-    if DETECT in world.stages:
+    if meets(world):
         most = max(counts, default=1024)
         modes = [Mode(samples * -(-most * finer // samples), None) for finer in FINER]
         method, about = CONTACT_STEP, f"{modes[0].steps} steps, against {modes[1].steps}"

@@ -37,7 +37,7 @@ class Case:
     @property
     def meets(self) -> bool:
         """Whether bodies can meet in it."""
-        return runs.DETECT in self.world.stages
+        return runs.meets(self.world)
 
 
 def case_of(scene: Any, duration: float | None) -> Case:  # noqa: ANN401 — the user's

@@ -173,7 +173,8 @@ impl World {
     pub fn stages(&self) -> Vec<&'static str> {
         let plan = Plan::new(&self.state, self.fields.len());
         let (meets, joins) = (!plan.colliding.is_empty(), plan.joints > 0);
-        let sleeps = self.state.settings.sleeping && plan.together == 0 && (meets || joins);
+        let rests = plan.together == 0 && plan.meeting != Meeting::Fluid && (meets || joins);
+        let sleeps = self.state.settings.sleeping && rests;
         let all = [
             ("plan", true),
             ("detect", meets),
