@@ -111,7 +111,8 @@ fn cell(hard: &mut Hard, entrant: &mut dyn Entrant, rate: Real) -> Result<Cell> 
     Ok(Cell { scene: hard.scene.name, engine, step: hard.scene.dt, verdict, figure, picture })
 }
 
-fn judge(hard: &Hard, states: &[State]) -> Result<(Verdict, Option<Real>)> {
+/// How a state is judged, and the figure behind it.
+pub fn judge(hard: &Hard, states: &[State]) -> Result<(Verdict, Option<Real>)> {
     let finite = |state: &State| {
         let State { position, angle, velocity, angular_velocity } = *state;
         let sum = position.x + position.y + angle + velocity.x + velocity.y + angular_velocity;

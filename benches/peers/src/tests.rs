@@ -5,7 +5,9 @@ use culbuto::math::{Real, Rot, Vec2, cross, vec2};
 
 use crate::engines::State;
 use crate::scene::{Body, Region, Scene, Shape};
-use crate::{scenes, yardstick};
+use crate::scenes::hard::Should;
+use crate::stability::Verdict;
+use crate::{scenes, stability, yardstick};
 
 const EPS: Real = 1e-12;
 
@@ -128,11 +130,15 @@ fn scenes_have_the_sizes_of_their_models() {
     let sizes = scenes::all().iter().map(|scene| (scene.name, scene.dynamic())).collect::<Vec<_>>();
     let right = [
         ("stack_10", 10),
+        ("chain_100", 100),
+        ("rope_30", 31),
         ("pyramid_20", 210),
         ("circles_1000", 1000),
         ("circles_5000", 5000),
         ("large_pyramid", 5050),
+        ("ragdolls_25", 275),
         ("tumbler", 2025),
+        ("joint_grid", 9993),
         ("junkyard", 8000),
         ("compounds", 3000),
         ("smash", 9601),
@@ -140,6 +146,54 @@ fn scenes_have_the_sizes_of_their_models() {
         ("many_pyramids", 22_000),
     ];
     assert_eq!(sizes, right);
+}
+
+/// A scene of the catalogue as one for all engines.
+fn translated(name: &str) -> Result<Scene, &'static str> {
+    let scene = culbuto::scenes::scene(name).unwrap();
+    let culbuto::scenes::Answer::Motion(motion) = scene.answer else {
+        panic!("{name} has no motion")
+    };
+    crate::translate::translate(scene.name, scene.title, &(motion.build)().unwrap())
+}
+
+#[test]
+fn scenes_of_the_catalogue_keep_what_matters_when_they_are_translated() {
+    let springs = translated("S7").unwrap();
+    assert_eq!((springs.bodies.len(), springs.joints.len()), (5, 4));
+    for joint in &springs.joints {
+        let spring = joint.spring.unwrap();
+        assert_near(spring.hertz, 2.0);
+        let mass = spring.stiffness / (std::f64::consts::TAU * 2.0).powi(2);
+        assert_near(mass, yardstick_mass(&springs.bodies[joint.bodies[1]]));
+    }
+    let ball = translated("elastic_ball").unwrap();
+    assert_near(ball.restitution, 1.0);
+    assert_eq!(translated("kepler").unwrap_err(), "a field or a schedule of forces acts");
+    assert_eq!(translated("fall_with_drag").unwrap_err(), "the air resists");
+}
+
+/// Mass of a disk.
+fn yardstick_mass(body: &Body) -> Real {
+    let Shape::Circle { radius, .. } = body.shapes[0] else { panic!("no disk") };
+    body.density * std::f64::consts::PI * radius * radius
+}
+
+#[test]
+fn hard_scenes_start_as_they_should_be() {
+    for hard in scenes::hard::all() {
+        let start = yardstick::start(&hard.scene);
+        let (verdict, figure) = stability::judge(&hard, &start).unwrap();
+        assert_eq!((verdict, figure), (Verdict::Right, Some(0.0)), "{}", hard.scene.name);
+        let mut moved = start.clone();
+        let last = moved.len() - 1;
+        moved[last].position.x += 2.0 * hard.size;
+        moved[last].angular_velocity = 0.0;
+        let spoilt = stability::judge(&hard, &moved).unwrap().0;
+        assert_eq!(spoilt > Verdict::Right, hard.should != Should::Stop, "{}", hard.scene.name);
+        moved[last].position.x = Real::NAN;
+        assert_eq!(stability::judge(&hard, &moved).unwrap(), (Verdict::Nan, None));
+    }
 }
 
 #[test]
