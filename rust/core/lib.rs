@@ -50,6 +50,7 @@ pub mod observe;
 pub mod report;
 pub mod scenes;
 pub mod shapes;
+pub mod soft;
 pub mod solvers;
 pub mod world;
 

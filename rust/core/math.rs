@@ -114,6 +114,12 @@ pub struct Rot {
     pub sin: Real,
 }
 
+impl Default for Rot {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
 impl Rot {
     /// The rotation that turns nothing.
     pub const IDENTITY: Self = Self { cos: 1.0, sin: 0.0 };

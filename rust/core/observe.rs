@@ -6,6 +6,7 @@ use crate::body::Mass;
 use crate::error::{Error, Result};
 use crate::forces::{BodyColumns, ForceField, Ledger};
 use crate::math::{Pose, Real, Twist, Vec2, Wrench, cross, vec2};
+use crate::soft::SoftBody;
 use crate::world::World;
 
 /// Where a world's energy is (J). `total − work + dissipated` stays what it was, whatever happens.
@@ -13,7 +14,7 @@ use crate::world::World;
 pub struct Energy {
     /// Σ ½mv² + ½Iω².
     pub kinetic: Real,
-    /// In gravity, against the origin, in the springs of joints, and in fields that have a potential.
+    /// In gravity, against the origin, in the springs of joints, in what is strained, and in fields that have a potential.
     pub potential: Real,
     /// Done on the bodies by forces without a potential, since the world was made.
     pub work: Real,
@@ -44,14 +45,19 @@ impl World {
     /// A field whose potential fails.
     pub fn energy(&self) -> Result<Energy> {
         let ledger = self.ledger();
-        let bodies: Real = self.dynamic().map(|(_, twist, mass)| mass.kinetic_energy(twist)).sum();
-        let kinetic = bodies + self.fluids().kinetic_energy();
+        let rigid: Real = self.dynamic().map(|(_, twist, mass)| mass.kinetic_energy(twist)).sum();
+        let mut kinetic = rigid + self.fluids().kinetic_energy();
         let gravity = self.settings().gravity;
         let in_gravity = |(pose, _, mass): (&Pose, &Twist, &Mass)| {
             -mass.mass * gravity.component_mul(&mass.gravity_scale).dot(&pose.position)
         };
         let mut potential: Real = self.dynamic().map(in_gravity).sum();
         potential += self.spring_energy() + self.fluids().potential_energy(gravity);
+        for body in self.soft_bodies() {
+            kinetic += body.kinetic_energy();
+            let weight = gravity * (body.mass() * body.def().gravity_scale);
+            potential += body.strain_energy() - weight.dot(&body.center());
+        }
         for field in self.fields() {
             let own = field.potential(self.time(), &self.columns());
             potential += own.map_err(failed(field.as_ref()))?.unwrap_or(0.0);
@@ -60,30 +66,35 @@ impl World {
         Ok(Energy { kinetic, potential, work, dissipated, correction_work })
     }
 
-    /// Σ mv over the dynamic bodies and the fluids (kg·m/s).
+    /// Σ mv over the dynamic and deformable bodies and the fluids (kg·m/s).
     #[must_use]
     pub fn momentum(&self) -> Vec2 {
-        let bodies: Vec2 = self.dynamic().map(|(_, twist, mass)| mass.mass * twist.linear).sum();
-        bodies + self.fluids().momentum()
+        let rigid: Vec2 = self.dynamic().map(|(_, twist, mass)| mass.mass * twist.linear).sum();
+        let rigid = rigid + self.fluids().momentum();
+        self.soft_bodies().iter().fold(rigid, |sum, body| sum + body.momentum())
     }
 
-    /// Σ m(r − p) × v + Iω over the dynamic bodies and the fluids (kg·m²/s), about the point p.
+    /// Σ m(r − p) × v + Iω over the dynamic and deformable bodies and the fluids (kg·m²/s), about the point p.
     #[must_use]
     pub fn angular_momentum(&self, about: Vec2) -> Real {
         let of_body = |(pose, twist, mass): (&Pose, &Twist, &Mass)| {
             let spin = if mass.inverse_inertia > 0.0 { mass.inertia * twist.angular } else { 0.0 };
             mass.mass * cross(pose.position - about, twist.linear) + spin
         };
-        self.dynamic().map(of_body).sum::<Real>() + self.fluids().angular_momentum(about)
+        let rigid =
+            self.dynamic().map(of_body).sum::<Real>() + self.fluids().angular_momentum(about);
+        self.soft_bodies().iter().fold(rigid, |sum, body| sum + body.angular_momentum(about))
     }
 
-    /// Σ m over the dynamic bodies and the fluids (kg).
+    /// Σ m over the dynamic and deformable bodies and the fluids (kg).
     #[must_use]
     pub fn mass(&self) -> Real {
-        self.dynamic().map(|(_, _, mass)| mass.mass).sum::<Real>() + self.fluids().mass()
+        let rigid: Real = self.dynamic().map(|(_, _, mass)| mass.mass).sum();
+        let rigid = rigid + self.fluids().mass();
+        self.soft_bodies().iter().fold(rigid, |sum, body| sum + body.mass())
     }
 
-    /// Centre of mass of the dynamic bodies and the fluids (m); the origin where there is none.
+    /// Centre of mass of the dynamic and deformable bodies and the fluids (m); the origin where there is none.
     #[must_use]
     pub fn center_of_mass(&self) -> Vec2 {
         let mass = self.mass();
@@ -91,11 +102,14 @@ impl World {
             return vec2(0.0, 0.0);
         }
         // About the first body, so that a distant origin costs no digits.
-        let first = self.fluids().particles.positions.first().copied();
-        let body = self.dynamic().next().map(|(pose, _, _)| pose.position);
-        let origin = body.or(first).unwrap_or(vec2(0.0, 0.0));
+        let rigid = self.dynamic().next().map(|(pose, _, _)| pose.position);
+        let fluid = self.fluids().particles.positions.first().copied();
+        let soft = self.soft_bodies().first().map(|body| body.positions()[0]);
+        let origin = rigid.or(fluid).or(soft).unwrap_or_else(Vec2::zeros);
         let sum: Vec2 = self.dynamic().map(|(pose, _, m)| m.mass * (pose.position - origin)).sum();
-        origin + (sum + self.fluids().first_moment(origin)) / mass
+        let sum = sum + self.fluids().first_moment(origin);
+        let of_soft = |sum: Vec2, body: &SoftBody| sum + (body.center() - origin) * body.mass();
+        origin + self.soft_bodies().iter().fold(sum, of_soft) / mass
     }
 
     /// Largest net force and net torque of the fields that say they obey Newton's third law, over

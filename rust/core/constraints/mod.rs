@@ -3,6 +3,8 @@
 
 pub mod contact;
 pub mod joint;
+pub mod matter;
 mod motion;
 
+pub use matter::Matter;
 pub use motion::{Place, Velocity};

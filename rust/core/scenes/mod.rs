@@ -14,6 +14,7 @@ mod newton;
 mod orbits;
 mod reversal;
 mod rotation;
+mod soft;
 mod stacks;
 mod stage;
 
@@ -230,6 +231,14 @@ pub static CATALOGUE: &[&Scene] = &[
     &fluid::RISING,
     &fluid::DAM,
     &fluid::MOMENTUM,
+    &soft::END_LOAD,
+    &soft::OWN_WEIGHT,
+    &soft::AXIAL,
+    &soft::LARGE,
+    &soft::PATCH,
+    &soft::RIGID,
+    &soft::AREA,
+    &soft::RANDOM,
 ];
 
 /// Scenes that take minutes; `make test-full` runs them.

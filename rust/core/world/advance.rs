@@ -22,7 +22,7 @@ impl World {
     /// [`DragWidth::BoundingBox`](crate::body::DragWidth), whose kinks are not looked for.
     ///
     /// # Errors
-    /// A number that is not allowed, a field that fails, a tolerance that cannot be reached. The world
+    /// A number that is not allowed, a field that fails, deformable bodies in the world, a tolerance that cannot be reached. The world
     /// is then as it was before the call.
     pub fn advance(&mut self, duration: Real, tolerance: Real) -> Result<&StepReport> {
         self.advance_sampled(duration, tolerance, &[])?;
@@ -51,6 +51,10 @@ impl World {
         watch: &mut Watch<'_>,
     ) -> Result<Trajectory> {
         check::positive("duration", duration)?;
+        if !self.state.softs.is_empty() {
+            let allowed = "step(dt): deformable bodies move at a fixed step only";
+            return Err(Error::invalid("advance", "a world with deformable bodies", allowed));
+        }
         if !(1e-15..=0.1).contains(&tolerance) {
             return Err(Error::invalid("tolerance", tolerance, "1e-15 to 0.1"));
         }

@@ -8,6 +8,7 @@ use crate::math::{Pose, Real, Twist, Wrench};
 use crate::world::contacts::{Change, ContactBackup, Patch};
 use crate::world::joints::Memory;
 use crate::world::plan::Meeting;
+use crate::world::soft::SoftBackup;
 use crate::world::{Clock, Plan, State};
 
 /// The moving part of a world before a call, to go back to if the call fails.
@@ -28,6 +29,8 @@ pub(super) struct Backup {
     changes: Vec<Change>,
     /// What joints remember.
     joints: Vec<Memory>,
+    /// Deformable bodies.
+    softs: SoftBackup,
     /// The joints, where one may break.
     breakable: Option<Arena<Joint>>,
     /// The fluids, where there are any.
@@ -40,6 +43,7 @@ pub(super) struct Start {
     moving: Vec<(usize, Pose, Twist)>,
     patches: Vec<Patch>,
     joints: Vec<Memory>,
+    softs: SoftBackup,
     clock: Clock,
     ledger: Ledger,
 }
@@ -62,6 +66,9 @@ impl Start {
         self.moving.extend(plan.moving().map(|i| (i, bodies.poses[i], bodies.twists[i])));
         self.patches.clone_from(&state.contacts.patches);
         remember(&mut self.joints, state);
+        if plan.softs > 0 {
+            self.softs.save(&state.softs);
+        }
         (self.clock, self.ledger) = (state.clock, state.ledger);
     }
 
@@ -85,6 +92,7 @@ impl Start {
         }
         state.contacts.patches.clone_from(&self.patches);
         recall(&self.joints, state);
+        self.softs.restore(&mut state.softs);
         (state.clock, state.ledger) = (self.clock, self.ledger);
     }
 }
@@ -105,6 +113,9 @@ impl Backup {
         self.changes.clear();
         self.changes.extend_from_slice(state.contacts.touching.changes());
         remember(&mut self.joints, state);
+        if plan.softs > 0 {
+            self.softs.save(&state.softs);
+        }
         let breaks = |joint: &Joint| {
             joint.def.breaking_force.is_some() || joint.def.breaking_torque.is_some()
         };
@@ -138,6 +149,7 @@ impl Backup {
         if applied {
             state.bodies.applied.clone_from(&self.applied);
         }
+        self.softs.restore(&mut state.softs);
         if self.collides {
             self.contacts.restore(&mut state.contacts);
         }

@@ -176,7 +176,7 @@ impl World {
 
     fn detect_and_split(&mut self, dt: Real) -> Result<()> {
         if self.meets() {
-            self.detect(dt)?;
+            self.detect_all(dt)?;
         }
         if self.meets() || self.plan.as_ref().is_some_and(|plan| plan.joints > 0) {
             self.find_islands();

@@ -13,6 +13,7 @@ mod queries;
 mod report;
 mod sleep;
 mod snapshot;
+mod soft;
 mod step;
 mod stepper;
 
@@ -110,6 +111,7 @@ struct State {
     contacts: contacts::Contacts,
     joints: Arena<Joint>,
     fluids: Fluids,
+    softs: soft::Softs,
     schedules: Arena<Schedule>,
     field_map: HandleMap<Field>,
     clock: Clock,
@@ -158,6 +160,7 @@ struct WorldScratch {
     contacts: contacts::ContactScratch,
     joined: joints::JoinedScratch,
     wet: fluid::WetScratch,
+    soft: soft::SoftScratch,
 }
 
 impl Default for World {

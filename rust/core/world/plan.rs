@@ -31,6 +31,8 @@ pub struct Plan {
     pub(super) colliding: Vec<u32>,
     /// Number of joints that do anything.
     pub(super) joints: usize,
+    /// Number of deformable bodies.
+    pub(super) softs: usize,
     /// Who meets whom.
     pub(super) meeting: Meeting,
 }
@@ -70,7 +72,8 @@ impl Plan {
         }
         let ties = |joint: &&crate::joint::Joint| tied(bodies, joint).is_some();
         plan.joints = state.joints.values().iter().filter(ties).count();
-        if contacts.touchable() > 1 {
+        plan.softs = state.softs.bodies.values().len();
+        if contacts.touchable() > usize::from(plan.softs == 0) {
             let moving = (0..bodies.len()).filter(|i| {
                 bodies.infos[*i].def.kind != BodyKind::Static && !contacts.is_asleep(*i)
             });
@@ -78,7 +81,7 @@ impl Plan {
         }
         plan.meeting = if !state.fluids.list.values().is_empty() {
             Meeting::Fluid
-        } else if plan.colliding.is_empty() {
+        } else if plan.colliding.is_empty() && plan.softs == 0 {
             Meeting::Apart
         } else {
             Meeting::Bodies

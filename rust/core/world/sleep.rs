@@ -25,6 +25,10 @@ impl World {
         let mut slept = false;
         for k in 0..scratch.contacts.groups() {
             let links = || scratch.contacts.links_of(k).flatten();
+            // What touches matter that gives way stays awake with it.
+            if links().any(|i| i as usize >= bodies.len()) {
+                continue;
+            }
             let rests = |i: u32| {
                 let i = i as usize;
                 match bodies.masses[i].is_free() {

@@ -167,6 +167,7 @@ impl Snapshot {
         }
         hand(stored.state.joints.values_mut(), constraints)?;
         stored.state.bodies.rebuild();
+        stored.state.softs.rebuild()?;
         stored.state.contacts.rebuild(&stored.state.bodies);
         Ok(Self { state: stored.state, fields, method })
     }

@@ -99,7 +99,7 @@ impl World {
         let hits = self.events.hit.len();
         self.state.contacts.spread.clear();
         for tries in 1.. {
-            self.stage("detect", |world| world.detect(dt))?;
+            self.stage("detect", |world| world.detect_all(dt))?;
             self.stage("islands", |world| {
                 world.find_islands();
                 Ok(())
@@ -126,9 +126,25 @@ impl World {
         Ok(())
     }
 
-    /// Whether bodies can meet.
+    /// Detection, that of deformable bodies included, until nothing wakes any more.
+    pub(super) fn detect_all(&mut self, dt: Real) -> Result<()> {
+        loop {
+            self.detect(dt)?;
+            if !self.has_softs() || !self.look_around_softs(dt) {
+                return Ok(());
+            }
+            self.planned();
+        }
+    }
+
+    /// Whether bodies can meet, or give way.
     pub(super) fn meets(&self) -> bool {
-        self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty())
+        self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty() || plan.softs > 0)
+    }
+
+    /// Whether there are deformable bodies.
+    pub(super) fn has_softs(&self) -> bool {
+        self.plan.as_ref().is_some_and(|plan| plan.softs > 0)
     }
 
     /// Whether any joint does anything.
@@ -337,6 +353,13 @@ impl World {
             let hint = "check forces, velocities and dt; the world is as before the call";
             let time = self.time();
             return Err(Error::NotFinite { time, what: "position or velocity", body, hint });
+        }
+        if plan.softs > 0
+            && let Some(body) = self.soft_bodies().iter().position(|body| !body.is_finite())
+        {
+            let (time, what) = (self.time(), "a node of the soft body");
+            let hint = "check forces, velocities and dt; the world is as before the call";
+            return Err(Error::NotFinite { time, what, body, hint });
         }
         if std::mem::take(&mut self.applied) {
             self.state.bodies.applied.fill(Wrench::ZERO);

@@ -12,6 +12,8 @@ mod group;
 mod impacts;
 pub mod joints;
 pub(in crate::methods) mod law;
+pub mod matter;
+mod matter_direct;
 pub mod newton;
 mod path;
 mod project;

@@ -20,6 +20,7 @@ use crate::methods::contact_step::newton::Together;
 use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Watched};
 use crate::solvers::links::LinkSolver;
 use crate::world::joints::{index_of, is_smooth, keep, tie, tied};
+use crate::world::soft::take_ends;
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -88,7 +89,7 @@ impl ContactScratch {
     pub fn joints_of(&self, k: usize) -> impl Iterator<Item = u32> {
         let first = self.solid.len();
         self.islands.group(k).iter().filter_map(move |link| {
-            (*link as usize).checked_sub(first).map(|joint| self.joined[joint])
+            (*link as usize).checked_sub(first).and_then(|joint| self.joined.get(joint).copied())
         })
     }
 
@@ -165,11 +166,19 @@ impl World {
                 pair.iter().for_each(|i| moved[*i as usize] = gives_way(*i));
             }
         }
+        let softs = plan.as_ref().map_or(0, |plan| plan.softs);
+        if softs > 0 {
+            let mark = |i: u32| moved[i as usize] = gives_way(i);
+            scratch.soft.add_links(&state.softs, masses.len(), links, mark);
+        }
         // Fields act on all bodies at once, which then are one group.
         let together = fields && !links.is_empty();
         if together {
             moved.fill(true);
             islands.unite_all(links.len());
+        } else if softs > 0 {
+            let ties = |i: u32| i as usize >= masses.len() || gives_way(i);
+            islands.split(masses.len() + softs, links, ties);
         } else {
             islands.split(masses.len(), links, gives_way);
         }
@@ -187,7 +196,8 @@ impl World {
         }
         let smooth = |link: &u32| {
             let joint = (*link as usize).checked_sub(solid.len());
-            joint.is_some_and(|k| is_smooth(bodies, &joints.values()[joined[k] as usize]))
+            let joint = joint.and_then(|k| joined.get(k));
+            joint.is_some_and(|k| is_smooth(bodies, &joints.values()[*k as usize]))
         };
         left.extend((0..islands.len()).map(|k| islands.group(k).iter().all(smooth)));
     }
@@ -204,10 +214,17 @@ impl World {
         if systems.len() > 2 * islands.len() + SPARE {
             systems.clear();
         }
+        let softs = self.has_softs();
+        if softs {
+            self.begin_grips();
+        }
         for k in 0..self.scratch.contacts.islands.len() {
             if !self.scratch.contacts.leaves(k) {
                 self.advance_group(k, span)?;
             }
+        }
+        if softs {
+            self.end_grips(span);
         }
         Ok(())
     }
@@ -255,10 +272,11 @@ impl World {
             ..
         } = &mut scratch.contacts;
         group.clear();
+        let members = &mut scratch.soft.members;
+        members.clear();
         *mark = mark.wrapping_add(1);
         slots.resize(bodies.len(), (0, 0));
-        let h = span.h();
-        let gravity = settings.gravity;
+        let (h, gravity) = (span.h(), settings.gravity);
         let mut slot_of = |group: &mut Group, body: u32| {
             let entry = &mut slots[body as usize];
             if entry.0 != *mark {
@@ -276,7 +294,10 @@ impl World {
         for link in islands.group(k) {
             let pair = links[*link as usize];
             let Some(place) = solid.get(*link as usize).copied() else {
-                let place = joined[*link as usize - solid.len()];
+                let Some(place) = joined.get(*link as usize - solid.len()).copied() else {
+                    take_ends(pair, bodies.len(), members, |i| slot_of(group, i));
+                    continue;
+                };
                 let joint = &joints.values()[place as usize];
                 let ends = [0, 1].map(|side| {
                     let body = index_of(bodies, joint, side)?;
@@ -297,6 +318,9 @@ impl World {
     }
 
     pub(super) fn step_group(&mut self, span: Span) -> Result<Outcome> {
+        if !self.scratch.soft.members.is_empty() {
+            return self.step_group_with_softs(span);
+        }
         let Self { state, scratch, plan, fields, report, .. } = self;
         let settings = contact_step::Settings {
             law: state.settings.impact_law,

@@ -21,6 +21,9 @@ impl World {
     /// Moves group k through a span, in substeps as fine as its joints' loads ask for.
     pub(super) fn advance_group(&mut self, k: usize, span: Span) -> Result<()> {
         self.gather(k, span);
+        if !self.scratch.soft.members.is_empty() {
+            self.save_members();
+        }
         // To a tolerance, steps are as short as their error asks, which sees what grows.
         let most = if self.report.estimate.is_some() { 1 } else { MOST };
         let mut parts = self.parts(span.h()).min(most.into()).ceil().max(1.0) as u32;

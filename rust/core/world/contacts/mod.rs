@@ -19,6 +19,7 @@ mod strays;
 mod surroundings;
 mod touching;
 mod view;
+mod with_softs;
 
 pub(super) use advance::ContactScratch;
 pub(super) use backup::ContactBackup;
@@ -116,6 +117,14 @@ impl Contacts {
             let way = after.poses[i].position - before.poses[i].position;
             way.norm() <= self.covered[i]
         })
+    }
+
+    /// Tells of the colliders whose boxes meet a box.
+    pub fn each_near(&self, around: &Aabb, mut tell: impl FnMut(ProxyId, &Entry)) {
+        self.broad.query(around, &mut |proxy| {
+            tell(proxy, &self.entries[proxy.0 as usize]);
+            true
+        });
     }
 
     /// Whether a body has shapes.

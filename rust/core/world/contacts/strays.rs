@@ -132,7 +132,7 @@ impl Contacts {
         self.of_body[body].iter().map(|proxy| self.entry(*proxy))
     }
 
-    fn entry(&self, proxy: ProxyId) -> &Entry {
+    pub(in crate::world) fn entry(&self, proxy: ProxyId) -> &Entry {
         &self.entries[proxy.0 as usize]
     }
 

@@ -1,0 +1,592 @@
+//! Groups that hold matter which gives way: its points of contact, rigid contacts and joints in one solve.
+//!
+//! The rows of all points on one piece of matter are coupled by A⁻¹ among the nodes that are touched. They are swept together with the
+//! blocks of rigid contacts and the joints; then the matter settles, nonlinear as it is, under the impulses it got, and what that leaves
+//! is swept again.
+
+use super::{
+    Group, Outcome, Settings, Surroundings, impacts, joints, kick, place_blocks, prepare_rows,
+    project,
+};
+use crate::constraints::matter::{Effort, Matter, Point, Side};
+use crate::error::Result;
+use crate::math::{Real, Twist, Vec2, cross};
+use crate::methods::Span;
+use crate::solvers::sweep::{self, Budget};
+
+/// What a group holds beside rigid bodies.
+pub trait Matters {
+    /// Number of pieces.
+    fn count(&self) -> usize;
+
+    /// One of them.
+    fn piece(&mut self, k: usize) -> &mut dyn Matter;
+
+    /// Finds the points of contact in the middle of a substep of length h (s), with what they remember.
+    fn find(&mut self, group: &Group, h: Real, points: &mut Vec<Point>);
+
+    /// Keeps what points did, for the next substep.
+    fn keep(&mut self, group: &Group, h: Real, points: &[Point]);
+}
+
+/// Rounds of sweeping and settling in a substep.
+const ROUNDS: usize = 6;
+/// Times that points are swept in a round; after all but the last they are solved at once.
+const ATTEMPTS: u32 = 8;
+/// Sweeps of the last time, as a multiple of the world's.
+const SWEEPS: u32 = 4;
+/// Part of the velocities that the substep deals with to which the rows must settle.
+const CALM: Real = 1e-7;
+/// Overlap that is left alone, as a part of the width of a point.
+const SLOP: Real = 1e-2;
+/// Part of the rest that a substep removes.
+const PART: Real = 0.1;
+/// Speed with which overlap is removed at most, as a part of the width in a substep.
+const MOST: Real = 0.02;
+
+/// Columns of the solve, kept between substeps.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    pub(super) points: Vec<Point>,
+    pub(super) rows: Vec<Row>,
+    /// Nodes that are touched, piece after piece, and where each piece begins; one more ends the last.
+    nodes: Vec<u32>,
+    first: Vec<usize>,
+    /// Velocities of those.
+    pub(super) velocities: Vec<Vec2>,
+    /// A⁻¹ among those of each piece.
+    responses: Vec<Vec<[Real; 4]>>,
+    pub(super) dense: Vec<Real>,
+    pub(super) right: Vec<Real>,
+    pub(super) bearing: Vec<(u32, Vec2)>,
+    pub(super) saved: (Vec<[Real; 2]>, Vec<Vec2>, Vec<Twist>),
+}
+
+/// The rows of a point as sweeps see them.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Row {
+    /// Places of the touched nodes of both sides, and their weights, below 0 on A; weight 0: none.
+    pub(super) places: [u32; 4],
+    pub(super) weights: [Real; 4],
+    /// J A⁻¹ Jᵀ: nn, nt, tt.
+    response: [Real; 3],
+    pub(super) target: [Real; 2],
+}
+
+/// Moves a group with matter through a span.
+///
+/// # Errors
+/// Those of the surroundings.
+pub fn run(
+    group: &mut Group,
+    span: Span,
+    settings: Settings,
+    (around, matters, scratch): (&mut dyn Surroundings, &mut dyn Matters, &mut Scratch),
+) -> Result<Outcome> {
+    let mut outcome = Outcome::default();
+    let h = span.h();
+    joints::start(group);
+    for k in 0..span.substeps {
+        joints::remember(group);
+        outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
+        (0..matters.count()).for_each(|k| matters.piece(k).begin(h));
+        around.accelerate((span.time(k) + h / 2.0, h), group)?;
+        place_blocks(group);
+        joints::place(group);
+        kick(group, h / 2.0);
+        group.middle = span.time(k) + h / 2.0;
+        impacts::resolve(group, h, settings.law, (around, &mut outcome));
+        kick(group, h / 2.0);
+        matters.find(group, h, &mut scratch.points);
+        solve(group, (h, settings), (matters, scratch), &mut outcome);
+        matters.keep(group, h, &scratch.points);
+        outcome.ledger.work += around.work(group);
+        if group.watch.has_swift(group) {
+            impacts::resolve_turned(group, h, settings.law, (around, &mut outcome));
+        }
+        outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
+        for k in 0..matters.count() {
+            outcome.ledger += matters.piece(k).finish();
+        }
+        project::apart(group, h, &mut outcome);
+        if !group.ties.is_empty() {
+            outcome.ledger.correction_work += joints::close(group, h);
+            joints::book_dampers(group, &mut outcome.ledger);
+        }
+        if !group.watch.blocks.is_empty() {
+            group.note_thrown();
+        }
+    }
+    Ok(outcome)
+}
+
+fn solve(
+    group: &mut Group,
+    (h, settings): (Real, Settings),
+    (matters, scratch): (&mut dyn Matters, &mut Scratch),
+    outcome: &mut Outcome,
+) {
+    group.free.clear();
+    group.free.extend(group.velocities.iter().map(|velocity| velocity.twist));
+    let fastest = prepare_rows(group, h);
+    joints::prepare(group, h);
+    for point in &mut scratch.points {
+        point.handed = point.impulse();
+        push(group, matters, point);
+    }
+    let mut effort = settle_all(matters);
+    scratch.gather(matters);
+    let scale = scratch.aim(group, matters, h).max(fastest);
+    let budget = Budget { tolerance: CALM * scale, most: settings.sweeps };
+    for round in 0..ROUNDS {
+        scratch.take(matters);
+        let (sweeps, residual) = scratch.solve_rows(group, budget);
+        outcome.sweeps += u64::from(sweeps);
+        let before = scratch.given(matters);
+        let more = settle_all(matters);
+        effort.iterations += more.iterations;
+        effort.factorisations += more.factorisations;
+        let off = scratch.off(matters).max(residual);
+        if (before == 0.0 && sweeps <= 1) || off <= budget.tolerance || round + 1 == ROUNDS {
+            outcome.residual = outcome.residual.max(off);
+            break;
+        }
+    }
+    outcome.factorisations += effort.factorisations;
+    scratch.follow_lead(group, matters);
+    book(group, h, (matters, scratch), outcome);
+    for (block, link) in group.blocks.iter().zip(&mut group.links) {
+        link.passed += block.impulse[0] + block.impulse[1];
+    }
+    if !group.watch.blocks.is_empty() {
+        project::turn_back_late(group, h, outcome);
+    }
+}
+
+fn settle_all(matters: &mut dyn Matters) -> Effort {
+    let mut effort = Effort::default();
+    for k in 0..matters.count() {
+        let own = matters.piece(k).settle();
+        effort.iterations += own.iterations;
+        effort.factorisations += own.factorisations;
+    }
+    effort
+}
+
+/// Gives both sides of a point its impulse.
+fn push(group: &mut Group, matters: &mut dyn Matters, point: &Point) {
+    let impulse = point.handed;
+    if impulse == Vec2::zeros() {
+        return;
+    }
+    for (side, sign) in point.sides.iter().zip([-1.0, 1.0]) {
+        match *side {
+            Side::Body(slot, arm) => {
+                group.velocities[slot as usize].push_at(arm, impulse * sign);
+            }
+            Side::Nodes(k, nodes, weights) => {
+                for (node, weight) in nodes.iter().zip(weights) {
+                    matters.piece(k as usize).push(*node, impulse * (sign * weight));
+                }
+            }
+        }
+    }
+}
+
+/// Books what the rows did: an impulse p does the work p·½(v⁻ + v⁺) on each side.
+fn book(
+    group: &mut Group,
+    h: Real,
+    (matters, scratch): (&mut dyn Matters, &Scratch),
+    outcome: &mut Outcome,
+) {
+    let work = group.row_work(h);
+    let mut gained = work.gain;
+    if !group.ties.is_empty() {
+        gained -= joints::book(group, h, &mut outcome.ledger);
+    }
+    outcome.ledger.work += work.given;
+    for point in &scratch.points {
+        let impulse = point.impulse();
+        for (side, sign) in point.sides.iter().zip([-1.0, 1.0]) {
+            match *side {
+                Side::Nodes(k, nodes, weights) => {
+                    for (node, weight) in nodes.iter().zip(weights) {
+                        let [before, after] = matters.piece(k as usize).velocities(*node);
+                        gained += 0.5 * sign * weight * impulse.dot(&(before + after));
+                    }
+                }
+                // What a body with a given motion does is work.
+                Side::Body(slot, arm) => {
+                    let velocity = &group.velocities[slot as usize];
+                    if velocity.is_fixed() {
+                        let work = -sign * impulse.dot(&velocity.at(arm));
+                        outcome.ledger.work += work;
+                        gained -= work;
+                    }
+                }
+            }
+        }
+        let belt = point.grip.impulse[1] * point.tangent_speed;
+        outcome.ledger.work += belt;
+        gained -= belt;
+    }
+    outcome.ledger.dissipated -= gained;
+}
+
+impl Scratch {
+    /// Numbers the nodes that are touched, and finds A⁻¹ among them.
+    fn gather(&mut self, matters: &mut dyn Matters) {
+        let Self { points, rows, nodes, first, velocities, responses, .. } = self;
+        nodes.clear();
+        first.clear();
+        let count = matters.count();
+        for k in 0..count {
+            let start = nodes.len();
+            first.push(start);
+            for side in points.iter().flat_map(|point| &point.sides) {
+                if let Side::Nodes(piece, pair, weights) = side
+                    && *piece as usize == k
+                {
+                    nodes.extend(
+                        pair.iter().zip(weights).filter(|(_, w)| **w != 0.0).map(|(n, _)| *n),
+                    );
+                }
+            }
+            nodes[start..].sort_unstable();
+            let mut kept = start;
+            for at in start..nodes.len() {
+                if at == start || nodes[at] != nodes[kept - 1] {
+                    nodes[kept] = nodes[at];
+                    kept += 1;
+                }
+            }
+            nodes.truncate(kept);
+        }
+        first.push(nodes.len());
+        velocities.clear();
+        velocities.resize(nodes.len(), Vec2::zeros());
+        responses.resize(responses.len().max(count), Vec::new());
+        for k in 0..count {
+            matters.piece(k).respond(&nodes[first[k]..first[k + 1]], &mut responses[k]);
+        }
+        rows.clear();
+        for point in points {
+            let mut row = Row::default();
+            for (s, (side, sign)) in point.sides.iter().zip([-1.0, 1.0]).enumerate() {
+                let Side::Nodes(piece, pair, weights) = side else { continue };
+                let own = first[*piece as usize]..first[*piece as usize + 1];
+                for (n, (node, weight)) in pair.iter().zip(weights).enumerate() {
+                    let at = nodes[own.clone()].binary_search(node).unwrap_or(0);
+                    row.places[2 * s + n] = (own.start + at) as u32;
+                    row.weights[2 * s + n] = sign * weight;
+                }
+            }
+            rows.push(row);
+        }
+    }
+
+    /// Targets and responses of the rows; returns the size of the velocities that they deal with (m/s).
+    fn aim(&mut self, group: &Group, matters: &mut dyn Matters, h: Real) -> Real {
+        let mut scale: Real = 0.0;
+        self.take(matters);
+        for k in 0..self.rows.len() {
+            self.rows[k].response = self.response(group, k);
+            let point = &self.points[k];
+            let mut before = Vec2::zeros();
+            for (side, sign) in point.sides.iter().zip([-1.0, 1.0]) {
+                before += sign
+                    * match *side {
+                        Side::Body(slot, arm) => {
+                            let kick = group.places[slot as usize].kick(h);
+                            group.free[slot as usize].at(arm) - kick.at(arm)
+                        }
+                        Side::Nodes(piece, nodes, weights) => {
+                            let piece = matters.piece(piece as usize);
+                            let of = |n: usize| piece.velocities(nodes[n])[0] * weights[n];
+                            of(0) + of(1)
+                        }
+                    };
+            }
+            let now = self.velocity(group, k);
+            let came = point.normal.dot(&before);
+            scale = scale.max(now.amax()).max(before.amax());
+            self.rows[k].target = targets(point, h, came);
+        }
+        scale
+    }
+
+    /// Takes the velocities of the nodes that are touched.
+    fn take(&mut self, matters: &mut dyn Matters) {
+        for k in 0..matters.count() {
+            for at in self.first[k]..self.first[k + 1] {
+                self.velocities[at] = matters.piece(k).velocities(self.nodes[at])[1];
+            }
+        }
+    }
+
+    /// Velocity of B against A at point k.
+    pub(super) fn velocity(&self, group: &Group, k: usize) -> Vec2 {
+        let (point, row) = (&self.points[k], &self.rows[k]);
+        let mut velocity = Vec2::zeros();
+        for (s, (side, sign)) in point.sides.iter().zip([-1.0, 1.0]).enumerate() {
+            match *side {
+                Side::Body(slot, arm) => {
+                    velocity += group.velocities[slot as usize].at(arm) * sign;
+                }
+                Side::Nodes(..) => {
+                    for n in [2 * s, 2 * s + 1].into_iter().filter(|n| row.weights[*n] != 0.0) {
+                        velocity += self.velocities[row.places[n] as usize] * row.weights[n];
+                    }
+                }
+            }
+        }
+        velocity
+    }
+
+    /// nn, nt, tt of the response at point k.
+    fn response(&self, group: &Group, k: usize) -> [Real; 3] {
+        let (point, row) = (&self.points[k], &self.rows[k]);
+        let [n, t] = point.directions();
+        let mut sum = [0.0; 3];
+        for side in &point.sides {
+            if let Side::Body(slot, arm) = *side {
+                let velocity = &group.velocities[slot as usize];
+                let lever = |d: Vec2| (d, cross(arm, d));
+                sum[0] += velocity.coupling(lever(n), lever(n));
+                sum[1] += velocity.coupling(lever(n), lever(t));
+                sum[2] += velocity.coupling(lever(t), lever(t));
+            }
+        }
+        for a in (0..4).filter(|a| row.weights[*a] != 0.0) {
+            for b in (0..4).filter(|b| row.weights[*b] != 0.0) {
+                let Some(block) = self.block(row.places[a], row.places[b]) else { continue };
+                let weight = row.weights[a] * row.weights[b];
+                let through = |from: Vec2, to: Vec2| weight * to.dot(&apply(&block, from));
+                sum[0] += through(n, n);
+                sum[1] += through(t, n);
+                sum[2] += through(t, t);
+            }
+        }
+        sum
+    }
+
+    /// The block of A⁻¹ between two touched nodes; none between those of different pieces.
+    pub(super) fn block(&self, a: u32, b: u32) -> Option<[Real; 4]> {
+        let piece = self.first.partition_point(|first| *first <= a as usize) - 1;
+        let range = self.first[piece]..self.first[piece + 1];
+        if !range.contains(&(b as usize)) {
+            return None;
+        }
+        let [row, column] = [a, b].map(|x| x as usize - range.start);
+        Some(self.responses[piece][row * range.len() + column])
+    }
+
+    /// Sweeps; where they do not settle soon, all points that bear are solved at once, and swept again.
+    fn solve_rows(&mut self, group: &mut Group, budget: Budget) -> (u32, Real) {
+        let mut sweeps = 0;
+        let mut residual = 0.0;
+        for attempt in 0..ATTEMPTS {
+            let last = attempt + 1 == ATTEMPTS;
+            let most = if last { SWEEPS * budget.most } else { budget.most };
+            let (own, left) = self.sweep(group, budget, most);
+            (sweeps, residual) = (sweeps + own, left);
+            if residual <= budget.tolerance || self.rows.is_empty() || last {
+                break;
+            }
+            if !self.solve_together(group) {
+                let (own, left) = self.sweep(group, budget, SWEEPS * budget.most);
+                return (sweeps + own, left);
+            }
+        }
+        (sweeps, residual)
+    }
+
+    /// Sweeps over rigid blocks, joints and points in turn.
+    fn sweep(&mut self, group: &mut Group, budget: Budget, most: u32) -> (u32, Real) {
+        let single = Budget { most: 1, ..budget };
+        let mut change = 0.0;
+        for sweep in 1..=most {
+            change = 0.0;
+            if !group.ties.is_empty() {
+                change =
+                    joints::solve(&mut group.ties, &mut group.velocities, joints::TURN).max(change);
+            }
+            if !group.blocks.is_empty() {
+                let (_, residual) = sweep::solve(&mut group.velocities, &mut group.blocks, single);
+                change = residual.max(change);
+            }
+            // To and fro, so that what is pushed at one end is felt at the other.
+            for at in 0..self.rows.len() {
+                let k = if sweep % 2 == 1 { at } else { self.rows.len() - 1 - at };
+                change = self.solve_point(group, k).max(change);
+            }
+            if change <= budget.tolerance {
+                return (sweep, change);
+            }
+        }
+        (most, change)
+    }
+
+    /// Solves point k exactly; returns the change of its velocity (m/s).
+    fn solve_point(&mut self, group: &mut Group, k: usize) -> Real {
+        let now = self.velocity(group, k);
+        let (point, row) = (&mut self.points[k], &self.rows[k]);
+        let [n, t] = point.directions();
+        let error = [n.dot(&now) - row.target[0], t.dot(&now) - row.target[1]];
+        if point.grip.impulse == [0.0; 2] && error[0] >= 0.0 && !point.tied {
+            return 0.0;
+        }
+        let old = point.grip.impulse;
+        let new = impulses(point, row, error);
+        point.grip.impulse = new;
+        let change = [new[0] - old[0], new[1] - old[1]];
+        let [nn, _, tt] = row.response;
+        let given = n * change[0] + t * change[1];
+        self.give(group, k, given);
+        (change[0] * nn).abs().max((change[1] * tt).abs())
+    }
+
+    /// Lets both sides of point k feel an impulse.
+    pub(super) fn give(&mut self, group: &mut Group, k: usize, impulse: Vec2) {
+        let (point, row) = (&self.points[k], &self.rows[k]);
+        for (s, (side, sign)) in point.sides.iter().zip([-1.0, 1.0]).enumerate() {
+            match *side {
+                Side::Body(slot, arm) => {
+                    group.velocities[slot as usize].push_at(arm, impulse * sign);
+                }
+                Side::Nodes(piece, ..) => {
+                    let range = self.first[piece as usize]..self.first[piece as usize + 1];
+                    let responses = &self.responses[piece as usize];
+                    for n in [2 * s, 2 * s + 1].into_iter().filter(|n| row.weights[*n] != 0.0) {
+                        let p = impulse * row.weights[n];
+                        // Of a symmetric matrix the row of a node is its column.
+                        let at = (row.places[n] as usize - range.start) * range.len();
+                        let blocks = &responses[at..at + range.len()];
+                        for (v, block) in self.velocities[range.clone()].iter_mut().zip(blocks) {
+                            v.x += block[0] * p.x + block[2] * p.y;
+                            v.y += block[1] * p.x + block[3] * p.y;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Hands the pieces what sweeps have given since they settled; returns the largest of it (N·s).
+    fn given(&mut self, matters: &mut dyn Matters) -> Real {
+        let mut largest: Real = 0.0;
+        for point in &mut self.points {
+            let impulse = point.impulse();
+            let change = impulse - point.handed;
+            point.handed = impulse;
+            if change == Vec2::zeros() {
+                continue;
+            }
+            largest = largest.max(change.norm());
+            for (side, sign) in point.sides.iter().zip([-1.0, 1.0]) {
+                if let Side::Nodes(k, nodes, weights) = *side {
+                    for (node, weight) in nodes.iter().zip(weights) {
+                        matters.piece(k as usize).push(*node, change * (sign * weight));
+                    }
+                }
+            }
+        }
+        largest
+    }
+
+    /// Lets impulses act on rigid bodies where they act on the matter, so that angular momentum is kept.
+    fn follow_lead(&self, group: &mut Group, matters: &mut dyn Matters) {
+        for point in &self.points {
+            let impulse = point.impulse();
+            for s in 0..2 {
+                let (Side::Body(slot, _), Side::Nodes(piece, nodes, weights)) =
+                    (point.sides[s], point.sides[1 - s])
+                else {
+                    continue;
+                };
+                let piece = matters.piece(piece as usize);
+                let lead = piece.lead(nodes[0]) * weights[0] + piece.lead(nodes[1]) * weights[1];
+                let given = if s == 0 { -impulse } else { impulse };
+                let velocity = &mut group.velocities[slot as usize];
+                velocity.twist.angular += velocity.inverse_inertia * cross(lead, given);
+            }
+        }
+    }
+
+    /// By how much the nodes as settled are off what sweeps foresaw (m/s).
+    fn off(&self, matters: &mut dyn Matters) -> Real {
+        let mut off: Real = 0.0;
+        for k in 0..matters.count() {
+            for at in self.first[k]..self.first[k + 1] {
+                let now = matters.piece(k).velocities(self.nodes[at])[1];
+                off = off.max((now - self.velocities[at]).amax());
+            }
+        }
+        off
+    }
+}
+
+fn apply(block: &[Real; 4], v: Vec2) -> Vec2 {
+    Vec2::new(block[0] * v.x + block[1] * v.y, block[2] * v.x + block[3] * v.y)
+}
+
+/// Velocities that the rows of a point ask for: v ≥ −gap/h where there is a gap; what bounces, −e times as it came; what overlaps by more than
+/// the slop is parted slowly.
+fn targets(point: &Point, h: Real, came: Real) -> [Real; 2] {
+    if point.tied {
+        return [-point.gap / h, 0.0];
+    }
+    let tangent = point.tangent_speed;
+    if point.gap > 0.0 {
+        let arrives = came * h < -point.gap;
+        let bounce =
+            if arrives && point.grip.impulse[0] == 0.0 { -point.restitution * came } else { 0.0 };
+        return [if bounce > 0.0 { bounce } else { -point.gap / h }, tangent];
+    }
+    let slop = SLOP * point.width;
+    let parting = (PART * (-point.gap - slop)).clamp(0.0, MOST * point.width) / h;
+    let bounce =
+        if point.grip.impulse[0] == 0.0 { (-point.restitution * came).max(0.0) } else { 0.0 };
+    [parting.max(bounce), tangent]
+}
+
+/// Impulses that solve one point: it sticks, parts or slides.
+fn impulses(point: &mut Point, row: &Row, error: [Real; 2]) -> [Real; 2] {
+    let [nn, nt, tt] = row.response;
+    let [n, t] = point.grip.impulse;
+    let determinant = nn * tt - nt * nt;
+    let stick = if determinant > 1e-12 * nn * tt {
+        [
+            n - (tt * error[0] - nt * error[1]) / determinant,
+            t - (nn * error[1] - nt * error[0]) / determinant,
+        ]
+    } else {
+        [n - error[0] / nn.max(Real::MIN_POSITIVE), t]
+    };
+    if point.tied {
+        return stick;
+    }
+    let held = if point.grip.sliding { point.friction.sliding } else { point.friction.sticking };
+    if stick[0] >= 0.0 && stick[1].abs() <= held * stick[0] {
+        point.grip.sliding = false;
+        return stick;
+    }
+    // Velocities without any impulse of the point.
+    let free = [error[0] - nn * n - nt * t, error[1] - nt * n - tt * t];
+    if free[0] >= 0.0 {
+        return [0.0; 2];
+    }
+    let slides = |sign: Real| {
+        let by = nn + sign * point.friction.sliding * nt;
+        let normal = if by > 0.0 { -free[0] / by } else { 0.0 };
+        let tangent = sign * point.friction.sliding * normal;
+        // It opposes the sliding that remains.
+        let speed = free[1] + nt * normal + tt * tangent;
+        (sign * speed <= 0.0 && normal > 0.0).then_some([normal, tangent])
+    };
+    let sign = if free[1] > 0.0 { -1.0 } else { 1.0 };
+    let normal = -free[0] / nn.max(Real::MIN_POSITIVE);
+    point.grip.sliding = true;
+    slides(sign).or_else(|| slides(-sign)).unwrap_or([normal, 0.0])
+}
