@@ -175,7 +175,8 @@ impl World {
     #[must_use]
     pub fn stages(&self) -> Vec<&'static str> {
         let plan = Plan::new(&self.state, self.fields.len());
-        let (meets, joins) = (!plan.colliding.is_empty(), plan.joints > 0);
+        let meets = !plan.colliding.is_empty() || plan.softs > 0;
+        let joins = plan.joints > 0;
         let rests = plan.together == 0 && plan.meeting != Meeting::Fluid && (meets || joins);
         let sleeps = self.state.settings.sleeping && rests;
         let all = [
