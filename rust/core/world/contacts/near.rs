@@ -71,6 +71,11 @@ impl Apart {
 }
 
 impl Near {
+    /// Whether it does more than notice.
+    pub fn resists(&self) -> bool {
+        matches!(self.kind, Kind::Solid | Kind::OneWay { solid: true })
+    }
+
     /// Places of its patches.
     pub fn patches(&self) -> std::ops::Range<usize> {
         self.first as usize..(self.first + self.count) as usize
@@ -86,6 +91,11 @@ pub(in crate::world) struct Patch {
 }
 
 impl Patch {
+    /// Whether it bore a load in the last substep.
+    pub fn bears(&self) -> bool {
+        self.memory.impulse[0] + self.memory.impulse[1] > 0.0
+    }
+
     /// A manifold as found, with the impulses of those points of the last step that have the same features.
     pub fn remembering(near: u32, manifold: Manifold, before: &[Self]) -> Self {
         let mut memory = Memory::NEW;

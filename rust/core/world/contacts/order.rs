@@ -30,6 +30,14 @@ impl Contacts {
         self.ranks = ranks;
     }
 
+    /// Pairs that resist and places of their patches, from above down: those that bore a load in the last substep, or the rest.
+    pub(super) fn solid(&self, bears: bool) -> impl Iterator<Item = (&Near, usize)> {
+        let pairs = self.order.iter().map(|place| &self.near[*place as usize]);
+        let solid = pairs.filter(|near| near.resists());
+        let patches = solid.flat_map(|near| near.patches().map(move |place| (near, place)));
+        patches.filter(move |(_, place)| self.patches[*place].bears() == bears)
+    }
+
     /// Pairs that have manifolds, as they were ordered last: that is often right still. What is new comes last.
     fn in_last_order(&mut self) {
         let Self { near, order, .. } = self;
