@@ -1,7 +1,7 @@
 //! A substep of the fluid: what is near what, divergence, forces, pressure, motion.
 
 use super::cells::Cells;
-use super::kernel::Kernel;
+use super::kernel::{Kernel, lattice};
 use super::pairs::{Around, Pair, Pairs};
 use super::particles::Spare;
 use super::pressure::{self, Coupling, Effort, Goal};
@@ -173,6 +173,7 @@ impl Flow {
         if self.viscosity.iter().all(|viscosity| *viscosity == 0.0) {
             return;
         }
+        self.even_out(&particles.positions, area);
         let friction = Friction {
             pairs: &self.pairs,
             touches: &self.touches,
@@ -193,6 +194,27 @@ impl Flow {
             *all += *own;
         }
         self.given = given;
+    }
+
+    /// Scales the viscosity at each particle by what its neighbours lack to pull as those on a lattice do: where rows slide
+    /// past one another they pull 2 % less in the mean. The discrete divergence of the field x, which is 2, lacks the same;
+    /// where neighbours are missing, at surfaces, the part of the kernel that they fill tells that it should.
+    fn even_out(&mut self, positions: &[Vec2], area: Real) {
+        let Self { pairs, touches, around, rates, team, .. } = self;
+        let lattice = lattice();
+        rates.resize(positions.len(), 0.0);
+        pairs.converge(bytemuck::cast_slice(positions), rates, team);
+        rates.iter_mut().for_each(|rate| *rate *= -0.5 * lattice.shear);
+        for touch in &touches.list {
+            rates[touch.particle as usize] += lattice.pull * touch.part;
+        }
+        let spacing = (area / lattice.area).sqrt();
+        let full = 1.0 - area * Kernel::new(spacing).value(0.0);
+        for ((viscosity, around), pull) in self.viscosity.iter_mut().zip(around).zip(rates) {
+            // What lies nearly in one place pulls together anyway.
+            let part = around.part / full;
+            *viscosity *= if part > 0.0 { part / pull.max(0.5 * part) } else { 1.0 };
+        }
     }
 
     /// Finds the pressures that keep the density, where all else changes the velocities of the wet bodies by `changes`

@@ -75,6 +75,8 @@ pub struct Lattice {
     pub friction: Real,
     /// What friction between particles counts, so that the lattice has the viscosity that is asked.
     pub shear: Real,
+    /// What the part that a wall fills counts as neighbours that pull, so that they are as many in the first row as inside.
+    pub pull: Real,
 }
 
 /// The lattice's numbers, computed at the first call.
@@ -88,7 +90,7 @@ fn measure() -> Lattice {
     let kernel = Kernel::new(1.0);
     let reach = SUPPORT as i32;
     let points = (-reach..=reach).flat_map(|x| (-reach..=reach).map(move |y| (x, y)));
-    let (mut all, mut above, mut shear, mut half) = (0.0, 0.0, 0.0, 0.0);
+    let (mut all, mut above, mut shear, mut half, mut below) = (0.0, 0.0, 0.0, 0.0, 0.0);
     for (x, y) in points {
         let (x, y) = (Real::from(x), Real::from(y));
         let r = (x * x + y * y).sqrt();
@@ -99,15 +101,18 @@ fn measure() -> Lattice {
             // In the flow v = (½y², 0), whose Laplacian is 1, and of the upper half in the flow v = (y, 0).
             shear += pull * y * y / 2.0;
             half += if y > 0.0 { pull * y } else { 0.0 };
+            below += if y < 0.0 { pull * r * r / 4.0 } else { 0.0 };
         }
     }
     let area = 1.0 / all;
     let shore = half_plane(&kernel, 0.5);
+    let missing = 1.0 - area * above;
     Lattice {
         area,
-        wall: (1.0 - area * above) / (shore.part * shore.part),
+        wall: missing / (shore.part * shore.part),
         friction: area * half / (0.5 * shore.friction),
         shear: 1.0 / (area * shear),
+        pull: below / (shear * missing),
     }
 }
 
@@ -146,10 +151,11 @@ mod tests {
 
     #[test]
     fn corrections_of_the_lattice_are_small() {
-        let Lattice { area, wall, friction, shear } = *lattice();
+        let Lattice { area, wall, friction, shear, pull } = *lattice();
         assert!((area - 1.0).abs() < 2e-3, "{area}");
         assert!((shear - 1.0).abs() < 2e-2, "{shear}");
         assert!((4.0..4.5).contains(&wall), "{wall}");
         assert!((1.0..3.0).contains(&friction), "{friction}");
+        assert!((1.5..2.5).contains(&pull), "{pull}");
     }
 }

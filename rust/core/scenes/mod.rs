@@ -230,6 +230,8 @@ pub static CATALOGUE: &[&Scene] = &[
     &fluid::FLOATING,
     &fluid::RISING,
     &fluid::DAM,
+    &fluid::POISEUILLE,
+    &fluid::COUETTE,
     &fluid::MOMENTUM,
     &soft::END_LOAD,
     &soft::OWN_WEIGHT,

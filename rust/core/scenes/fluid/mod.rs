@@ -1,4 +1,9 @@
-//! Fluids: a column at rest, boxes that float, a disk that rises, a dam that breaks, momentum.
+//! Fluids: a column at rest, boxes that float, a disk that rises, a dam that breaks, momentum; in files of
+//! their own viscous flows.
+
+mod viscous;
+
+pub use viscous::{COUETTE, POISEUILLE};
 
 use crate::body::{BodyDef, BodyHandle, BodyKind};
 use crate::error::Result;
