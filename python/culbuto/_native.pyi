@@ -71,6 +71,7 @@ __all__ = [
     "Shape",
     "SimulationError",
     "Snapshot",
+    "SoftBody",
     "SpringMotion",
     "StaleHandleError",
     "State",
@@ -1215,6 +1216,138 @@ class Fluid:
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
 
 @final
+class SoftBody:
+    """A deformable body. Made by `World.add_soft_body`.
+
+    Arrays are by nodes, or by elements: its triangles, or the rods of a rope.
+    """
+
+    @property
+    def positions(self) -> _Array:
+        """Positions (n, 2) of its nodes (m). May be set; all or nothing."""
+    @positions.setter
+    def positions(self, values: ArrayLike) -> None: ...
+    @property
+    def velocities(self) -> _Array:
+        """Velocities (n, 2) of its nodes (m/s). May be set; those of pinned nodes stay 0."""
+    @velocities.setter
+    def velocities(self, values: ArrayLike) -> None: ...
+    @property
+    def forces(self) -> _Array:
+        """Constant forces (n, 2) on its nodes (N). May be set; all or nothing."""
+    @forces.setter
+    def forces(self, values: ArrayLike) -> None: ...
+    @property
+    def pinned(self) -> NDArray[np.bool_]:
+        """Which of its nodes (n,) stay where they are. May be set; all or nothing."""
+    @pinned.setter
+    def pinned(self, values: NDArray[np.bool_] | Sequence[bool]) -> None: ...
+    def inflate(self, pressure: float, *, outside: float = 0.0, exponent: float = 1.0) -> None:
+        """Fills a closed rope with a gas.
+
+        Args:
+            pressure: In the area at rest (Pa).
+            outside: Pressure outside (Pa).
+            exponent: γ of pAᵞ = constant: 1, at a constant temperature, or above.
+        """
+    def puncture(self) -> None:
+        """Pricks it: the gas in it is gone."""
+    @property
+    def name(self) -> str | None:
+        """Name; None if it has none."""
+    @property
+    def rest(self) -> _Array:
+        """Places (n, 2) of its nodes at rest (m), in its frame."""
+    @property
+    def triangles(self) -> _IntArray:
+        """Its triangles (m, 6): nodes at corners, counter-clockwise, then on sides 01, 12, 20."""
+    @property
+    def rods(self) -> _IntArray:
+        """Its rods (m, 2): the nodes at their ends."""
+    @property
+    def border(self) -> _IntArray:
+        """Pieces of its border (b, 2), from node to node, the matter on the left; or its rods."""
+    @property
+    def density(self) -> float:
+        """Mass per area (kg/m²); of ropes per length (kg/m)."""
+    @property
+    def youngs_modulus(self) -> float:
+        """Young's modulus (Pa)."""
+    @property
+    def poissons_ratio(self) -> float:
+        """Poisson's ratio."""
+    @property
+    def plane(self) -> Literal["stress", "strain"]:
+        """What is zero across the plane."""
+    @property
+    def damping_ratio(self) -> float:
+        """Part of critical damping at `damping_frequency`."""
+    @property
+    def damping_frequency(self) -> float:
+        """Frequency at which `damping_ratio` holds (Hz)."""
+    @property
+    def yield_strain(self) -> float | None:
+        """Difference of the principal strains beyond which it stays bent; None: never."""
+    @property
+    def friction(self) -> tuple[float, float]:
+        """Static and kinetic friction."""
+    @property
+    def restitution(self) -> float:
+        """Speed after over speed before a collision."""
+    @property
+    def radius(self) -> float:
+        """By how much its border is thicker than its nodes say (m)."""
+    @property
+    def mass(self) -> float:
+        """Mass (kg)."""
+    @property
+    def node_masses(self) -> _Array:
+        """What each of its nodes (n,) weighs where all move alike (kg)."""
+    @property
+    def center(self) -> Vec2:
+        """Centre of mass (m)."""
+    @property
+    def momentum(self) -> Vec2:
+        """Momentum (kg·m/s)."""
+    def angular_momentum(self, about: _Vec2Arg) -> float:
+        """Angular momentum about a point (kg·m²/s)."""
+    @property
+    def kinetic_energy(self) -> float:
+        """Kinetic energy (J)."""
+    @property
+    def strain_energy(self) -> float:
+        """Energy of what is strained, and of the gas in it (J)."""
+    @property
+    def area(self) -> float:
+        """Area of its triangles (m²), or inside a rope that is filled."""
+    @property
+    def pressure(self) -> float | None:
+        """Pressure of the gas in it above that outside (Pa); None without a gas."""
+    @property
+    def strains(self) -> _Array:
+        """Green's strain (m, 3) of each triangle: xx, yy, xy in the axes of its frame.
+
+        Of ropes each rod's relative stretch, as xx.
+        """
+    @property
+    def stresses(self) -> _Array:
+        """Cauchy's stress (m, 3) of each triangle (Pa): xx, yy, xy in the axes of the world.
+
+        Without the viscous part. Of ropes each rod's tension (N), as xx.
+        """
+    @property
+    def world(self) -> World:
+        """The world it is, or was, in."""
+    @property
+    def removed(self) -> bool:
+        """Whether it was removed from its world."""
+    def remove(self) -> None:
+        """Removes the body from its world."""
+    def __len__(self) -> int: ...
+    def __bool__(self) -> bool: ...
+    def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
+
+@final
 class SpringMotion:
     """How what hangs on a spring moves, whatever else holds its bodies left aside."""
 
@@ -2125,6 +2258,88 @@ class World:
         """Height of the highest free surface above a place x (m); None where there is none."""
     def fluid_load(self, body: Body) -> tuple[Vec2, float]:
         """Mean force (N) and torque (N·m, about its centre) on a body in the last step."""
+    def add_soft_body(
+        self,
+        shape: Shape | ArrayLike,
+        *,
+        size: float | None = None,
+        triangles: ArrayLike | None = None,
+        position: _Vec2Arg = ...,
+        angle: float = 0.0,
+        velocity: _Vec2Arg = ...,
+        angular_velocity: float = 0.0,
+        density: float = 1000.0,
+        youngs_modulus: float = 1e6,
+        poissons_ratio: float = 0.3,
+        plane: Literal["stress", "strain"] = ...,
+        damping_ratio: float = 0.0,
+        damping_frequency: float = 1.0,
+        yield_strain: float | None = None,
+        stretch_stiffness: float | None = None,
+        bending_stiffness: float = 0.0,
+        closed: bool = False,
+        gas_pressure: float | None = None,
+        outside_pressure: float = 0.0,
+        gas_exponent: float = 1.0,
+        gravity_scale: float = 1.0,
+        pins: ArrayLike | None = None,
+        radius: float | None = None,
+        touches_itself: bool = False,
+        friction: _Friction = ...,
+        restitution: float = 0.0,
+        tangent_speed: float = 0.0,
+        material: str | None = None,
+        category: int = 1,
+        mask: int = 4_294_967_295,
+        group: int = 0,
+        name: str | None = None,
+    ) -> SoftBody:
+        """Adds a deformable body: a shape in triangles, triangles of one's own, or a rope.
+
+        Args:
+            shape: In the body's frame: a shape with an area or an outline (n, 2), to be cut into
+                triangles; points (n, 2) of `triangles`; or points (n, 2) of a rope.
+            size: About how long the sides of the triangles of a shape or an outline are (m).
+            triangles: Numbers (m, 3) of the points at their corners. Nodes on sides come after.
+            position: Of the body's frame (m).
+            angle: Of the body's frame (rad).
+            velocity: Of the centre of mass (m/s).
+            angular_velocity: rad/s.
+            density: kg/m²; of ropes kg/m.
+            youngs_modulus: E (Pa). Bodies are of unit thickness.
+            poissons_ratio: Above -1 and below 0.5 (0.5 itself in plane stress).
+            plane: "stress", a thin sheet, or "strain", a slice of something long.
+            damping_ratio: Part of critical damping at `damping_frequency`; other frequencies are
+                damped in proportion to theirs.
+            damping_frequency: Hz.
+            yield_strain: Difference of the principal strains (logarithmic) beyond which it stays
+                bent; None: never.
+            stretch_stiffness: EA (N). Makes a rope, with a rod from each point to the next.
+            bending_stiffness: EI of a rope (N·m²), which is straight at rest.
+            closed: Whether the rope goes back to its first point.
+            gas_pressure: Of the gas in a closed rope in its area at rest (Pa); None: no gas.
+            outside_pressure: Against it (Pa).
+            gas_exponent: γ of pAᵞ = constant, 1 to 10.
+            gravity_scale: How many times gravity acts.
+            pins: Numbers of nodes that stay where they are.
+            radius: By how much its border is thicker than its nodes say (m); by default a fiftieth
+                of the mean piece of its border.
+            touches_itself: Whether its border touches itself.
+            friction: A number, or two: static and kinetic; 0.5.
+            restitution: Speed after over speed before a collision, 0 to 1.
+            tangent_speed: Of the surface along its border (m/s).
+            material: Name, for `set_pair`.
+            category: Bits of the categories it belongs to.
+            mask: Bits of the categories it touches.
+            group: Bodies of one group always touch if it is above 0, and never if it is below.
+            name: In pictures and messages.
+
+        Raises:
+            ValueError: For a number that is not allowed; it says which, and what is.
+        """
+    @property
+    def soft_bodies(self) -> list[SoftBody]:
+        """All deformable bodies."""
     def add_joint(self, joint: _AnyJoint) -> _AnyJoint:
         """Adds a joint that was drafted, and returns it.
 
@@ -2133,8 +2348,8 @@ class World:
     @property
     def joints(self) -> Joints:
         """The joints of now and of later: a view."""
-    def remove(self, part: Body | Field | Fluid | Schedule | _Joint) -> None:
-        """Removes a body (with its joints and schedules), joint, field, schedule or fluid."""
+    def remove(self, part: Body | Field | Fluid | Schedule | SoftBody | _Joint) -> None:
+        """Removes a body (with its joints and schedules), or any other part."""
     def find(self, name: str) -> Body | None:
         """The first body of this name, in body order; None if there is none."""
     def cast_ray(self, start: _Vec2Arg, end: _Vec2Arg, **seen: Unpack[_Seen]) -> RayHit | None:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from culbuto.joint_drawing import Mark, marks
+from culbuto.soft_drawing import COLOUR, SoftMark, soft_marks
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -74,25 +75,29 @@ def sketches(world: World) -> list[Sketch]:
 def svg(world: World, *, joints: bool = True) -> str:
     """The world as it is, as an SVG: shapes coloured by kind, centres of mass, orientation, joints.
 
+    Triangles of deformable bodies are coloured by their stress.
+
     Args:
         world: The world.
         joints: Whether joints are drawn.
     """
-    now = sketches(world)
-    canvas = _Canvas(_view(now, _reach(world) if joints else []))
+    now, soft = sketches(world), soft_marks(world)
+    canvas = _Canvas(_view(now, _reach(world, joints=joints)))
     tied = marks(world, HINGE / canvas.scale) if joints else []
-    return canvas.document([*map(canvas.body, now), *map(canvas.joint, tied)])
+    drawn = [*map(canvas.body, now), *map(canvas.soft, soft), *map(canvas.joint, tied)]
+    return canvas.document(drawn)
 
 
-def _reach(world: World) -> list[Points]:
-    """Where joints are, whatever the size of their marks."""
-    return [mark.points for mark in marks(world, 0.0)]
+def _reach(world: World, *, joints: bool) -> list[Points]:
+    """Where deformable bodies are, and joints, whatever the size of their marks."""
+    soft = [body.positions for body in world.soft_bodies]
+    return [*soft, *(mark.points for mark in marks(world, 0.0))] if joints else soft
 
 
 def picture(world: World, trajectory: Trajectory, *, joints: bool = True) -> str:
     """A motion as an SVG: the bodies at its start (faint) and at its end, and the paths between.
 
-    Joints are drawn at its end, if that is where the world is.
+    Joints and deformable bodies are drawn at its end, if that is where the world is.
     """
     moving = [i for i, body in enumerate(world.bodies) if body.kind != "static"]
 
@@ -103,13 +108,16 @@ def picture(world: World, trajectory: Trajectory, *, joints: bool = True) -> str
     start, end = at(0), at(-1)
     every = -(-len(trajectory.times) // MOST_PATH_POINTS)
     paths = [_centers(world.bodies[i], trajectory, i)[::every] for i in moving]
-    joints = joints and np.array_equal(trajectory.positions[-1], world.positions)
-    canvas = _Canvas(_view(start + end, [*paths, *(_reach(world) if joints else [])]))
-    tied = marks(world, HINGE / canvas.scale) if joints else []
+    there = trajectory.times[-1] == world.time
+    there = there and np.array_equal(trajectory.positions[-1], world.positions)
+    reach = _reach(world, joints=joints) if there else []
+    canvas = _Canvas(_view(start + end, [*paths, *reach]))
+    tied = marks(world, HINGE / canvas.scale) if joints and there else []
     return canvas.document([
         *(canvas.body(start[i], faint=True) for i in moving),
         *(canvas.path(path) for path in paths),
         *map(canvas.body, end),
+        *map(canvas.soft, soft_marks(world) if there else []),
         *map(canvas.joint, tied),
     ])  # fmt: skip
 
@@ -131,7 +139,7 @@ def _view(drawn: Iterable[Sketch], paths: Sequence[Points]) -> Points:
     drawn = list(drawn)
     still = [sketch.points for sketch in drawn if sketch.kind == "static"]
     moving = [sketch.points for sketch in drawn if sketch.kind != "static"] + list(paths)
-    if not drawn:
+    if not still and not moving:
         return np.array([[-1.0, -1.0], [1.0, 1.0]])
     every = np.concatenate(moving + still)
     low, high = every.min(axis=0), every.max(axis=0)
@@ -187,6 +195,16 @@ class _Canvas:
         kind = quoteattr(f"body {sketch.kind}")
         return f'<g class={kind} stroke="{colour}"{opacity}>{"".join(parts)}</g>'
 
+    def soft(self, mark: SoftMark) -> str:
+        """A deformable body: its triangles filled, its border."""
+        parts = [f"<title>{escape(mark.name)}</title>"] if mark.name else []
+        for face, colour in zip(mark.faces, mark.colours, strict=True):
+            look = f'fill="{colour}" fill-opacity="0.45" stroke="{colour}" stroke-width="0.4"'
+            parts.append(f'<path d="M{self._steps(face)}Z" {look}/>')
+        border = "".join(map(self._d, mark.borders))
+        parts.append(f'<path d="{border}" fill="none"/>')
+        return f'<g class="soft" stroke="{COLOUR}">{"".join(parts)}</g>'
+
     def path(self, points: Points) -> str:
         """The way of a centre of mass."""
         line = f'd="M{self._steps(points)}" fill="none" stroke="{PATH_COLOUR}"'
@@ -221,6 +239,7 @@ class _Canvas:
 
 def draw(world: World, ax: Axes, *, joints: bool = True, **style: Any) -> Axes:  # noqa: ANN401 — whatever a patch takes
     """Draws the world on matplotlib axes, in metres; `style` goes to the patches of shapes."""
+    from matplotlib.collections import LineCollection, PolyCollection  # noqa: PLC0415
     from matplotlib.patches import PathPatch  # noqa: PLC0415 — comes with an extra
     from matplotlib.path import Path  # noqa: PLC0415
 
@@ -234,7 +253,10 @@ def draw(world: World, ax: Axes, *, joints: bool = True, **style: Any) -> Axes: 
         if sketch.kind != "static":
             ax.plot(*sketch.mark.T, color=colour, linewidth=1.2)
             ax.plot(*sketch.mark[0], marker="o", markersize=3, color=colour)
-    low, high = _view(now, _reach(world) if joints else [])
+    for soft in soft_marks(world):
+        ax.add_collection(PolyCollection(list(soft.faces), facecolors=soft.colours, alpha=0.45))
+        ax.add_collection(LineCollection(list(soft.borders), colors=COLOUR, linewidths=1.2))
+    low, high = _view(now, _reach(world, joints=joints))
     if joints:
         for mark in marks(world, 0.01 * float((high - low).max())):
             for line in mark.lines:

@@ -6,6 +6,7 @@
 use pyo3::prelude::*;
 
 mod add_body;
+mod add_soft;
 mod arrays;
 mod body;
 mod body_def;
@@ -39,6 +40,7 @@ mod schedule;
 mod shape;
 mod shapes;
 mod snapshot;
+mod soft;
 mod stepper;
 mod stepping;
 mod surface;
@@ -99,6 +101,8 @@ mod culbuto_native {
     };
     #[pymodule_export]
     use crate::snapshot::Snapshot;
+    #[pymodule_export]
+    use crate::soft::SoftBody;
     #[pymodule_export]
     use crate::stepper::{Frame, Stepper};
     #[pymodule_export]

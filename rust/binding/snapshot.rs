@@ -22,6 +22,7 @@ use crate::joint_pickle::{Classes, joint_class};
 use crate::law::LawParts;
 use crate::parts::Place;
 use crate::schedule::Schedule;
+use crate::soft::SoftBody;
 use crate::world::{Objects, World};
 
 /// A world as it was at one moment: to go back to, to keep, to send. It continues bit for bit.
@@ -105,7 +106,8 @@ impl Objects {
         self.broken.iter().try_for_each(|broken| visit.call(broken))?;
         self.fields.iter().try_for_each(|field| visit.call(field))?;
         self.schedules.iter().try_for_each(|schedule| visit.call(schedule))?;
-        self.fluids.iter().try_for_each(|fluid| visit.call(fluid))
+        self.fluids.iter().try_for_each(|fluid| visit.call(fluid))?;
+        self.softs.iter().try_for_each(|body| visit.call(body))
     }
 
     fn copied(&self, py: Python<'_>) -> Self {
@@ -116,6 +118,7 @@ impl Objects {
             fields: self.fields.iter().map(|field| field.clone_ref(py)).collect(),
             schedules: self.schedules.iter().map(|schedule| schedule.clone_ref(py)).collect(),
             fluids: self.fluids.iter().map(|fluid| fluid.clone_ref(py)).collect(),
+            softs: self.softs.iter().map(|body| body.clone_ref(py)).collect(),
         }
     }
 
@@ -156,6 +159,9 @@ impl Objects {
         for _ in kept.fluid_handles() {
             objects.fluids.push(Py::new(py, Fluid { place: Place::new(world) })?);
         }
+        for _ in kept.soft_handles() {
+            objects.softs.push(Py::new(py, SoftBody { place: Place::new(world) })?);
+        }
         Ok(objects)
     }
 
@@ -176,6 +182,9 @@ impl Objects {
         for (fluid, handle) in self.fluids.iter().zip(kept.fluid_handles()) {
             fluid.get().place.enter(*handle);
         }
+        for (body, handle) in self.softs.iter().zip(kept.soft_handles()) {
+            body.get().place.enter(*handle);
+        }
     }
 
     /// Takes every object out of its place. Called with the core locked.
@@ -185,6 +194,7 @@ impl Objects {
         self.fields.iter().for_each(|field| field.get().place.leave());
         self.schedules.iter().for_each(|schedule| schedule.get().place.leave());
         self.fluids.iter().for_each(|fluid| fluid.get().place.leave());
+        self.softs.iter().for_each(|body| body.get().place.leave());
     }
 
     /// Keeps the present objects of bodies whose handles are the same.
@@ -232,7 +242,7 @@ type Pickled<'py> = (
     Vec<Py<Body>>,
     Vec<Py<Joint>>,
     Vec<Py<Field>>,
-    (Vec<Py<Schedule>>, Vec<Py<Fluid>>),
+    (Vec<Py<Schedule>>, Vec<Py<Fluid>>, Vec<Py<SoftBody>>),
     Bound<'py, PyAny>,
 );
 
@@ -291,6 +301,9 @@ impl World {
         for (old, new) in objects.fluids.iter().zip(&made.fluids) {
             copy_attributes(old.bind(py), new.bind(py))?;
         }
+        for (old, new) in objects.softs.iter().zip(&made.softs) {
+            copy_attributes(old.bind(py), new.bind(py))?;
+        }
         Ok(world)
     }
 
@@ -303,9 +316,10 @@ impl World {
         drop(core);
         let data = PyBytes::new(py, &kept.to_bytes().map_err(to_py)?);
         let code = objects.code(py).parts(py);
-        let Objects { bodies, joints, fields, schedules, fluids, .. } = objects;
+        let Objects { bodies, joints, fields, schedules, fluids, softs, .. } = objects;
         let attributes = slf.getattr("__dict__")?;
-        let state = (data, code, bodies, joints, fields, (schedules, fluids), attributes);
+        let others = (schedules, fluids, softs);
+        let state = (data, code, bodies, joints, fields, others, attributes);
         Ok((slf.get_type().into_any(), PyTuple::empty(py), state))
     }
 
@@ -324,6 +338,7 @@ impl World {
             "joint" => in_slot(py, objects.joints, slot, |joint| joint.get().slot()),
             "field" => in_slot(py, objects.fields, slot, |field| field.get().place.slot()),
             "fluid" => in_slot(py, objects.fluids, slot, |fluid| fluid.get().place.slot()),
+            "soft body" => in_slot(py, objects.softs, slot, |body| body.get().place.slot()),
             _ => in_slot(py, objects.schedules, slot, |schedule| schedule.get().place.slot()),
         };
         Ok(match (found, kind) {
@@ -332,13 +347,15 @@ impl World {
             (None, "joint") => Joint::placed(slf, joint_class(class_)?.as_any())?.into_any(),
             (None, "field") => Bound::new(py, Field::new(slf, None))?.into_any(),
             (None, "fluid") => Bound::new(py, Fluid { place: Place::new(slf) })?.into_any(),
+            (None, "soft body") => Bound::new(py, SoftBody { place: Place::new(slf) })?.into_any(),
             (None, _) => Bound::new(py, Schedule { place: Place::new(slf) })?.into_any(),
         })
     }
 
     fn __setstate__(slf: &Bound<'_, Self>, state: Pickled<'_>) -> PyResult<()> {
         let py = slf.py();
-        let (data, code, bodies, joints, fields, (schedules, fluids), attributes) = state;
+        let (data, code, bodies, joints, fields, others, attributes) = state;
+        let (schedules, fluids, softs) = others;
         let code = Code::from_parts(py, code)?;
         let kept = code.snapshot(py, data.as_bytes())?;
         // Fields and joints are made here, around the code; their pickles find them by their place.
@@ -346,7 +363,8 @@ impl World {
         let wanted =
             [kept.bodies().len(), kept.joints().len(), kept.fields().len(), kept.schedules().len()];
         let given = [bodies.len(), joints.len(), fields.len(), schedules.len()];
-        if given != wanted || fluids.len() != kept.fluid_handles().len() {
+        let wanted_too = (kept.fluid_handles().len(), kept.soft_handles().len());
+        if given != wanted || (fluids.len(), softs.len()) != wanted_too {
             return Err(PyValueError::new_err("this is no pickled world"));
         }
         let own = |world: &Py<Self>| world.is(slf);
@@ -354,11 +372,13 @@ impl World {
             && joints.iter().all(|joint| joint.get().is_of(slf))
             && fields.iter().all(|field| own(&field.get().place.world))
             && schedules.iter().all(|schedule| own(&schedule.get().place.world))
-            && fluids.iter().all(|fluid| own(&fluid.get().place.world));
+            && fluids.iter().all(|fluid| own(&fluid.get().place.world))
+            && softs.iter().all(|body| own(&body.get().place.world));
         if !right {
             return Err(PyValueError::new_err("this is no pickled world"));
         }
-        (objects.bodies, objects.schedules, objects.fluids) = (bodies, schedules, fluids);
+        (objects.bodies, objects.schedules) = (bodies, schedules);
+        (objects.fluids, objects.softs) = (fluids, softs);
         for (joint, made) in joints.iter().zip(&objects.joints) {
             joint.get().adopt(made.get().rule().map(|rule| rule.clone_ref(py)));
         }

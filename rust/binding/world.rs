@@ -23,6 +23,7 @@ use crate::joints::BrokenJoint;
 use crate::mixing::{ImpactLawArg, RuleArg, SolverArg};
 use crate::parts::Made;
 use crate::schedule::Schedule;
+use crate::soft::SoftBody;
 use crate::vec2::Vec2;
 
 /// Bodies, and the laws they move by.
@@ -61,6 +62,8 @@ pub struct Objects {
     pub schedules: Vec<Py<Schedule>>,
     /// In the order of the core's fluids.
     pub fluids: Vec<Py<Fluid>>,
+    /// In the order of the core's deformable bodies.
+    pub softs: Vec<Py<SoftBody>>,
 }
 
 /// A number that no other living thread has.
@@ -359,7 +362,7 @@ impl World {
         Ok(self.objects().bodies.get(index).map(|body| body.clone_ref(py)))
     }
 
-    /// Removes a body (and the joints and schedules on it), a joint, a field, a schedule or a fluid.
+    /// Removes a body (and the joints and schedules on it), a joint, a field, a schedule, a fluid or a deformable body.
     fn remove(slf: &Bound<'_, Self>, part: &Bound<'_, PyAny>) -> PyResult<()> {
         if let Ok(body) = part.cast::<Body>() {
             body.get().remove_from(slf)
@@ -371,10 +374,13 @@ impl World {
             schedule.get().remove_from(slf)
         } else if let Ok(fluid) = part.cast::<Fluid>() {
             fluid.get().remove_from(slf)
+        } else if let Ok(body) = part.cast::<SoftBody>() {
+            body.get().remove_from(slf)
         } else {
             let kind = part.get_type().name()?;
-            let message =
-                format!("a world holds bodies, joints, fields, schedules and fluids, no {kind}");
+            let message = format!(
+                "a world holds bodies, joints, fields, schedules, fluids and deformable bodies, no {kind}"
+            );
             Err(PyTypeError::new_err(message))
         }
     }

@@ -11,6 +11,7 @@ use crate::forces::{BuiltInField, FieldHandle, ForceField, Schedule, ScheduleHan
 use crate::joint::{Constraint, Custom, Joint, JointHandle, JointKind};
 use crate::math::Real;
 use crate::methods::{self, Method};
+use crate::soft::SoftHandle;
 use crate::world::{State, World};
 
 /// The state of a world at one moment, fields included.
@@ -97,6 +98,12 @@ impl Snapshot {
     #[must_use]
     pub fn fluid_handles(&self) -> &[FluidHandle] {
         self.state.fluids.list.handles()
+    }
+
+    /// Handles of its deformable bodies.
+    #[must_use]
+    pub fn soft_handles(&self) -> &[SoftHandle] {
+        self.state.softs.bodies.handles()
     }
 
     /// World time (s).

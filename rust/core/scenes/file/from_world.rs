@@ -19,7 +19,7 @@ impl SceneFile {
     ///
     /// # Errors
     /// [`crate::Error::SceneFile`] for what a file cannot hold: a field that is the user's own code or
-    /// acts on a body that is gone, and forces that wait for the next step only.
+    /// acts on a body that is gone, fluids, deformable bodies, and forces that wait for the next step only.
     pub fn from_world(world: &World) -> Result<Self> {
         let bodies = world.bodies();
         if let Some(i) = bodies.applied.iter().position(|wrench| *wrench != Wrench::ZERO) {
@@ -30,6 +30,10 @@ impl SceneFile {
         if !world.fluids().list.values().is_empty() {
             let message = "a scene file cannot hold a fluid; a snapshot or a pickle can";
             return Err(wrong("fluids".to_owned(), message));
+        }
+        if !world.soft_bodies().is_empty() {
+            let message = "a scene file cannot hold a deformable body; a snapshot or a pickle can";
+            return Err(wrong("soft_bodies".to_owned(), message));
         }
         let settings = world.settings();
         let (time, time_remainder) = world.clock();
