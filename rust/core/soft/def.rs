@@ -40,7 +40,7 @@ pub struct SoftDef {
     pub gravity_scale: Real,
     /// Nodes that stay where they are put.
     pub pins: Vec<u32>,
-    /// By how much its border is thicker than its nodes say (m); none: a hundredth of the mean side of an element.
+    /// By how much its border is thicker than its nodes say (m); none: a fiftieth of the mean side of its border.
     pub radius: Option<Real>,
     /// What it is like to touch.
     pub surface: Surface,

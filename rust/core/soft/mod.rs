@@ -1,6 +1,6 @@
 //! Deformable bodies: meshes of a material that gives way, ropes, and what is filled with gas.
 //!
-//! Forces are gradients of an energy ([`Material`]), steps keep it ([`step`]), and the contact step sees a body as
+//! Forces are gradients of an energy ([`Material`]), steps keep it, and the contact step sees a body as
 //! [`crate::constraints::Matter`].
 
 mod body;
