@@ -1,5 +1,8 @@
 """The live read-out: what a run took, and what it kept of the laws."""
 
+from collections.abc import Callable
+from functools import partial
+
 import pytest
 
 import culbuto as cb
@@ -32,6 +35,33 @@ def test_a_report_tells_what_happened_and_leaves_out_what_did_not() -> None:
     assert report.gap < 1e-3
     deepest = max(-gap for contact in world.contacts for gap in contact.gaps)
     assert report.overlap == pytest.approx(max(deepest, 0), abs=1e-15)
+
+
+def water() -> cb.World:
+    world = cb.World(sleeping=True)
+    world.add_body(cb.Box(2, 1), kind="static", position=(0, -0.5))
+    world.add_fluid(cb.Box(0.4, 0.4, center=(0, 0.2)), spacing=0.1)
+    return world
+
+
+def jelly() -> cb.World:
+    world = cb.World()
+    world.add_soft_body(cb.Box(1, 1), size=0.5, youngs_modulus=1e5)
+    return world
+
+
+@pytest.mark.parametrize(
+    "make",
+    [cb.World, pile, water, jelly, *(partial(cb.scene, name) for name in ("S1", "S9", "S12", "C2"))],
+)
+def test_the_stages_that_a_world_names_are_those_that_run(make: Callable[[], cb.World]) -> None:
+    world = make()
+    world.timing = True
+    named = world.stages
+    world.step(1 / 60)
+    assert set(named) == set(world.report().stages)
+    if world.soft_bodies or world.fluids:
+        assert "nothing moves" not in world.explain()
 
 
 def test_an_estimate_is_told_if_asked_for() -> None:

@@ -69,6 +69,41 @@ fn a_heavy_box_presses_a_block_that_springs_back_when_it_is_gone() {
     assert!((back - rest).abs() < 0.02 * rest, "{back} of {rest} m²");
 }
 
+/// A box of so many kg per m² that falls on a block of 100 kg: energies at the start and at most, and the block's area after the box is gone,
+/// as a part of that at rest.
+fn crush(density: Real, friction: Real, height: Real) -> ([Real; 2], Real) {
+    let mut world = with_floor();
+    let mut soft = SoftDef { position: vec2(0.0, 0.52), ..block(material(1e5, 0.3)) };
+    soft.surface.friction = Friction::of(friction);
+    let body = world.add_soft_body(soft).unwrap();
+    let rest = world.soft_body(body).unwrap().area();
+    let mut weight = BodyDef::new(Shape::rectangle(2.0, 0.5).unwrap());
+    (weight.density, weight.surface.friction) = (density, Friction::of(friction));
+    let weight = world.add_body(BodyDef { position: vec2(0.0, height), ..weight }).unwrap();
+    let start = world.energy().unwrap().total();
+    let mut most = start;
+    for _ in 0..120 {
+        world.step(STEP).unwrap();
+        most = most.max(world.energy().unwrap().total());
+    }
+    world.remove_body(weight).unwrap();
+    world.steps(STEP, 600).unwrap();
+    ([start, most], world.soft_body(body).unwrap().area() / rest)
+}
+
+#[test]
+fn what_is_crushed_flat_gets_no_energy_from_nothing() {
+    // Up to 10⁴ times as heavy as the block: it goes through to the floor.
+    for (density, friction, height) in
+        [(1e4, 0.5, 1.3), (1e5, 0.5, 1.4), (1e6, 0.0, 1.4), (1e6, 0.5, 1.4), (1e6, 0.5, 3.0)]
+    {
+        let ([start, most], back) = crush(density, friction, height);
+        assert!(most <= start * (1.0 + 1e-9), "{density:e}, μ = {friction}: {start:e}, {most:e} J");
+        // A rough foot stays as it was spread.
+        assert!(friction > 0.0 || (back - 1.0).abs() < 0.02, "{density:e}: {back} of its area");
+    }
+}
+
 #[test]
 fn blocks_stack_on_one_another() {
     let mut world = with_floor();

@@ -37,6 +37,10 @@ pub trait Matter {
     /// The blocks of A⁻¹ between these nodes, row after row, each as [xx, xy, yx, yy] (1/kg).
     fn respond(&mut self, nodes: &[u32], out: &mut Vec<[Real; 4]>);
 
+    /// Energy (J) that it would end with beyond what it had, what was done on it and what pushed it, as last settled: above 0 only where it is
+    /// pushed by more than it can follow.
+    fn excess(&mut self) -> Real;
+
     /// Ends the substep: the other half of the drift. Returns what its forces did.
     fn finish(&mut self) -> Ledger;
 }
@@ -78,8 +82,6 @@ pub struct Point {
     pub restitution: Real,
     /// Tangential velocity (m/s) of B against A at which nothing slides.
     pub tangent_speed: Real,
-    /// It holds in both directions and does not slide: no contact, but a point that is tied to another.
-    pub tied: bool,
     /// What is kept of it.
     pub grip: Grip,
     /// Impulse on B that its matter has got in the substep (N·s).

@@ -105,6 +105,15 @@ impl SoftBody {
         allowed + self.steady_work() - self.energy_now()
     }
 
+    /// By how much (J) the substep would end above that, as things stand.
+    pub(super) fn excess_relaxed(&mut self) -> Real {
+        let (velocities, end) = (self.moving.velocities.clone(), self.work.end.clone());
+        let carried = self.work.carried.clone();
+        let excess = (-self.end_relaxed()).max(0.0);
+        (self.moving.velocities, self.work.end, self.work.carried) = (velocities, end, carried);
+        excess
+    }
+
     fn limit(&mut self, rigid: Rigid) {
         let allowed = self.start_energy() + self.pushed_work();
         self.limit_to(allowed, rigid);

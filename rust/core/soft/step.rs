@@ -377,6 +377,10 @@ impl Matter for SoftBody {
         }
     }
 
+    fn excess(&mut self) -> Real {
+        if self.work.relaxes { self.excess_relaxed() } else { 0.0 }
+    }
+
     fn finish(&mut self) -> Ledger {
         self.end()
     }

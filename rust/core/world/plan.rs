@@ -89,6 +89,17 @@ impl Plan {
         plan
     }
 
+    /// Whether bodies can meet, or give way.
+    pub(super) fn meets(&self) -> bool {
+        !self.colliding.is_empty() || self.softs > 0
+    }
+
+    /// Whether bodies may come to rest and be left out: not where all move together, or where a fluid moves.
+    pub(super) fn may_rest(&self) -> bool {
+        let ties = !self.colliding.is_empty() || self.joints > 0;
+        self.together == 0 && self.meeting != Meeting::Fluid && ties
+    }
+
     /// Every body that moves.
     pub(super) fn moving(&self) -> impl Iterator<Item = usize> {
         self.closed.iter().chain(&self.damped).copied().chain(self.runs().flatten())
@@ -175,19 +186,18 @@ impl World {
     #[must_use]
     pub fn stages(&self) -> Vec<&'static str> {
         let plan = Plan::new(&self.state, self.fields.len());
-        let meets = !plan.colliding.is_empty() || plan.softs > 0;
-        let joins = plan.joints > 0;
-        let rests = plan.together == 0 && plan.meeting != Meeting::Fluid && (meets || joins);
-        let sleeps = self.state.settings.sleeping && rests;
+        let (meets, joins) = (plan.meets(), plan.joints > 0);
+        let wades = plan.meeting == Meeting::Fluid;
         let all = [
             ("plan", true),
-            ("detect", meets),
-            ("islands", meets || joins),
-            ("advance", true),
+            ("fluid", wades),
+            ("detect", meets && !wades),
+            ("islands", (meets || joins) && !wades),
+            ("advance", !wades),
             ("events", meets || self.state.contacts.touching.changed()),
             ("joints", joins),
             ("report", true),
-            ("sleep", sleeps),
+            ("sleep", self.state.settings.sleeping && plan.may_rest()),
         ];
         all.into_iter().filter(|(_, runs)| *runs).map(|(name, _)| name).collect()
     }
@@ -217,6 +227,11 @@ impl World {
                 "what touches moves together, by the contact step instead of the below",
             );
         }
+        if plan.softs > 0 {
+            let bodies = if plan.softs == 1 { "body" } else { "bodies" };
+            let what = format!("{} deformable {bodies}, by the midpoint rule", plan.softs);
+            line("advance", &format!("{what}; what touches them with them, by the contact step"));
+        }
         let facts = self.method.facts();
         explain_joints(&plan, facts.joints.then_some(facts.name), &mut line);
         for (bodies, how) in [(&plan.closed, ""), (&plan.damped, " and damping")] {
@@ -241,12 +256,14 @@ impl World {
             line("advance", "split where a scheduled force changes");
         }
         explain_fluid(&plan, self.state.fluids.particles.len(), &mut line);
-        if plan.closed.is_empty() && plan.damped.is_empty() && plan.runs().next().is_none() {
+        let fixed =
+            plan.closed.is_empty() && plan.damped.is_empty() && plan.runs().next().is_none();
+        if fixed && plan.softs == 0 && plan.meeting != Meeting::Fluid {
             line("advance", "nothing moves");
         }
         self.explain_sleep(&plan, &mut line);
         line("report", "finite check, counters");
-        if plan.colliding.is_empty() {
+        if !plan.meets() {
             line("not run", "detection: nothing here can collide");
         }
         for stage in &self.report.stages {

@@ -16,9 +16,6 @@ const LONG: Real = 2.0;
 impl World {
     /// The stage that lets islands sleep: bodies that contacts tie and that have all been slow for long.
     pub(super) fn fall_asleep(&mut self, dt: Real) {
-        if self.is_wet() {
-            return;
-        }
         self.time_the_slow(dt);
         let Self { state, scratch, plan, .. } = self;
         let State { bodies, contacts, ledger, .. } = state;

@@ -139,7 +139,7 @@ impl World {
 
     /// Whether bodies can meet, or give way.
     pub(super) fn meets(&self) -> bool {
-        self.plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty() || plan.softs > 0)
+        self.plan.as_ref().is_some_and(Plan::meets)
     }
 
     /// Whether there are deformable bodies.
@@ -165,9 +165,7 @@ impl World {
 
     /// Whether bodies can fall asleep. Fields act on all bodies at once, and always.
     fn may_sleep(&self) -> bool {
-        let meets =
-            |plan: &Plan| plan.together == 0 && (!plan.colliding.is_empty() || plan.joints > 0);
-        self.state.settings.sleeping && self.plan.as_ref().is_some_and(meets)
+        self.state.settings.sleeping && self.plan.as_ref().is_some_and(Plan::may_rest)
     }
 
     /// Whether something can begin or end to touch in a step.

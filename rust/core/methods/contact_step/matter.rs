@@ -4,6 +4,7 @@
 //! blocks of rigid contacts and the joints; then the matter settles, nonlinear as it is, under the impulses it got, and what that leaves
 //! is swept again.
 
+use super::matter_energy::book;
 use super::{
     Group, Outcome, Settings, Surroundings, impacts, joints, kick, place_blocks, prepare_rows,
     project,
@@ -50,14 +51,16 @@ pub struct Scratch {
     pub(super) points: Vec<Point>,
     pub(super) rows: Vec<Row>,
     /// Nodes that are touched, piece after piece, and where each piece begins; one more ends the last.
-    nodes: Vec<u32>,
-    first: Vec<usize>,
+    pub(super) nodes: Vec<u32>,
+    pub(super) first: Vec<usize>,
     /// Velocities of those.
     pub(super) velocities: Vec<Vec2>,
     /// A⁻¹ among those of each piece.
-    responses: Vec<Vec<[Real; 4]>>,
+    pub(super) responses: Vec<Vec<[Real; 4]>>,
     pub(super) dense: Vec<Real>,
     pub(super) right: Vec<Real>,
+    /// Impulses on the touched nodes.
+    pub(super) pushed: Vec<Vec2>,
     pub(super) bearing: Vec<(u32, Vec2)>,
     pub(super) saved: (Vec<[Real; 2]>, Vec<Vec2>, Vec<Twist>),
 }
@@ -153,7 +156,8 @@ fn solve(
         }
     }
     outcome.factorisations += effort.factorisations;
-    scratch.follow_lead(group, matters);
+    scratch.follow_lead(group, matters, 1.0);
+    scratch.weaken(group, h, matters, outcome);
     book(group, h, (matters, scratch), outcome);
     for (block, link) in group.blocks.iter().zip(&mut group.links) {
         link.passed += block.impulse[0] + block.impulse[1];
@@ -163,7 +167,7 @@ fn solve(
     }
 }
 
-fn settle_all(matters: &mut dyn Matters) -> Effort {
+pub(super) fn settle_all(matters: &mut dyn Matters) -> Effort {
     let mut effort = Effort::default();
     for k in 0..matters.count() {
         let own = matters.piece(k).settle();
@@ -191,47 +195,6 @@ fn push(group: &mut Group, matters: &mut dyn Matters, point: &Point) {
             }
         }
     }
-}
-
-/// Books what the rows did: an impulse p does the work p·½(v⁻ + v⁺) on each side.
-fn book(
-    group: &mut Group,
-    h: Real,
-    (matters, scratch): (&mut dyn Matters, &Scratch),
-    outcome: &mut Outcome,
-) {
-    let work = group.row_work(h);
-    let mut gained = work.gain;
-    if !group.ties.is_empty() {
-        gained -= joints::book(group, h, &mut outcome.ledger);
-    }
-    outcome.ledger.work += work.given;
-    for point in &scratch.points {
-        let impulse = point.impulse();
-        for (side, sign) in point.sides.iter().zip([-1.0, 1.0]) {
-            match *side {
-                Side::Nodes(k, nodes, weights) => {
-                    for (node, weight) in nodes.iter().zip(weights) {
-                        let [before, after] = matters.piece(k as usize).velocities(*node);
-                        gained += 0.5 * sign * weight * impulse.dot(&(before + after));
-                    }
-                }
-                // What a body with a given motion does is work.
-                Side::Body(slot, arm) => {
-                    let velocity = &group.velocities[slot as usize];
-                    if velocity.is_fixed() {
-                        let work = -sign * impulse.dot(&velocity.at(arm));
-                        outcome.ledger.work += work;
-                        gained -= work;
-                    }
-                }
-            }
-        }
-        let belt = point.grip.impulse[1] * point.tangent_speed;
-        outcome.ledger.work += belt;
-        gained -= belt;
-    }
-    outcome.ledger.dissipated -= gained;
 }
 
 impl Scratch {
@@ -434,7 +397,7 @@ impl Scratch {
         let (point, row) = (&mut self.points[k], &self.rows[k]);
         let [n, t] = point.directions();
         let error = [n.dot(&now) - row.target[0], t.dot(&now) - row.target[1]];
-        if point.grip.impulse == [0.0; 2] && error[0] >= 0.0 && !point.tied {
+        if point.grip.impulse == [0.0; 2] && error[0] >= 0.0 {
             return 0.0;
         }
         let old = point.grip.impulse;
@@ -474,7 +437,7 @@ impl Scratch {
     }
 
     /// Hands the pieces what sweeps have given since they settled; returns the largest of it (N·s).
-    fn given(&mut self, matters: &mut dyn Matters) -> Real {
+    pub(super) fn given(&mut self, matters: &mut dyn Matters) -> Real {
         let mut largest: Real = 0.0;
         for point in &mut self.points {
             let impulse = point.impulse();
@@ -496,7 +459,7 @@ impl Scratch {
     }
 
     /// Lets impulses act on rigid bodies where they act on the matter, so that angular momentum is kept.
-    fn follow_lead(&self, group: &mut Group, matters: &mut dyn Matters) {
+    pub(super) fn follow_lead(&self, group: &mut Group, matters: &mut dyn Matters, part: Real) {
         for point in &self.points {
             let impulse = point.impulse();
             for s in 0..2 {
@@ -509,7 +472,7 @@ impl Scratch {
                 let lead = piece.lead(nodes[0]) * weights[0] + piece.lead(nodes[1]) * weights[1];
                 let given = if s == 0 { -impulse } else { impulse };
                 let velocity = &mut group.velocities[slot as usize];
-                velocity.twist.angular += velocity.inverse_inertia * cross(lead, given);
+                velocity.twist.angular += velocity.inverse_inertia * cross(lead, given) * part;
             }
         }
     }
@@ -527,16 +490,13 @@ impl Scratch {
     }
 }
 
-fn apply(block: &[Real; 4], v: Vec2) -> Vec2 {
+pub(super) fn apply(block: &[Real; 4], v: Vec2) -> Vec2 {
     Vec2::new(block[0] * v.x + block[1] * v.y, block[2] * v.x + block[3] * v.y)
 }
 
 /// Velocities that the rows of a point ask for: v ≥ −gap/h where there is a gap; what bounces, −e times as it came; what overlaps by more than
 /// the slop is parted slowly.
 fn targets(point: &Point, h: Real, came: Real) -> [Real; 2] {
-    if point.tied {
-        return [-point.gap / h, 0.0];
-    }
     let tangent = point.tangent_speed;
     if point.gap > 0.0 {
         let arrives = came * h < -point.gap;
@@ -564,9 +524,6 @@ fn impulses(point: &mut Point, row: &Row, error: [Real; 2]) -> [Real; 2] {
     } else {
         [n - error[0] / nn.max(Real::MIN_POSITIVE), t]
     };
-    if point.tied {
-        return stick;
-    }
     let held = if point.grip.sliding { point.friction.sliding } else { point.friction.sticking };
     if stick[0] >= 0.0 && stick[1].abs() <= held * stick[0] {
         point.grip.sliding = false;

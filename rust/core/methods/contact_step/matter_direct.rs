@@ -55,7 +55,7 @@ impl Scratch {
             let now = self.velocity(group, k);
             let [target, beside] = self.rows[k].target;
             let error = n.dot(&now) - target;
-            let bears = point.grip.impulse[0] > 0.0 || point.tied;
+            let bears = point.grip.impulse[0] > 0.0;
             lack = lack.max(if bears { error.abs() } else { -error });
             if bears && !self.slides(k) {
                 lack = lack.max((t.dot(&now) - beside).abs());
@@ -87,10 +87,10 @@ impl Scratch {
         for (k, point) in points.iter().enumerate() {
             let [n, t] = point.directions();
             let [normal, tangent] = point.grip.impulse;
-            if !point.tied && normal <= 0.0 {
+            if normal <= 0.0 {
                 continue;
             }
-            if point.grip.sliding && !point.tied {
+            if point.grip.sliding {
                 let way = n + t * (point.friction.sliding * tangent.signum());
                 bearing.push((k as u32, way));
             } else {
@@ -126,7 +126,7 @@ impl Scratch {
     }
 
     fn slides(&self, k: usize) -> bool {
-        self.points[k].grip.sliding && !self.points[k].tied
+        self.points[k].grip.sliding
     }
 
     /// Response of point k along a direction to an impulse at point l along another.
@@ -159,9 +159,6 @@ impl Scratch {
     fn admit(&mut self, group: &mut Group) {
         for k in 0..self.points.len() {
             let point = &self.points[k];
-            if point.tied {
-                continue;
-            }
             let [normal, tangent] = point.grip.impulse;
             let held = normal.max(0.0);
             let bound = held * point.friction.sticking;

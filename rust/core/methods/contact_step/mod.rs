@@ -14,6 +14,7 @@ pub mod joints;
 pub(in crate::methods) mod law;
 pub mod matter;
 mod matter_direct;
+mod matter_energy;
 pub mod newton;
 mod path;
 mod project;
@@ -211,7 +212,9 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
     if !group.ties.is_empty() {
         work.gain -= joints::book(group, h, &mut outcome.ledger);
     } else if work.gain > work.rounding {
-        work = settle::weaken(group, &work, outcome);
+        let part = settle::weaken(group, &work, outcome);
+        work.gain = part * (work.gain + (part - 1.0) * work.changed);
+        work.given *= part;
     }
     outcome.ledger.work += work.given;
     outcome.ledger.dissipated -= work.gain;

@@ -143,8 +143,8 @@ fn limit_targets(group: &mut Group, h: Real) {
 }
 
 /// Weakens all impulses of the rows by that part which makes them give no energy: weakened by a factor s they do the work
-/// s(gain − changed) + s²·changed.
-pub fn weaken(group: &mut Group, work: &RowWork, outcome: &mut Outcome) -> RowWork {
+/// s(gain − changed) + s²·changed. Returns s.
+pub fn weaken(group: &mut Group, work: &RowWork, outcome: &mut Outcome) -> Real {
     let part = (1.0 - work.gain / work.changed).max(0.0);
     let Group { velocities, free, blocks, .. } = group;
     for (velocity, free) in velocities.iter_mut().zip(&*free) {
@@ -161,6 +161,5 @@ pub fn weaken(group: &mut Group, work: &RowWork, outcome: &mut Outcome) -> RowWo
     if group.wide.on {
         wide::weaken(group, part);
     }
-    let gain = part * (work.gain + (part - 1.0) * work.changed);
-    RowWork { gain, given: part * work.given, ..*work }
+    part
 }

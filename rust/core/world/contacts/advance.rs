@@ -16,10 +16,12 @@ use crate::islands::Islands;
 use crate::math::{Real, Rot, Twist, Vec2, Wrench, perp};
 use crate::methods::Span;
 use crate::methods::contact_step::newton::Together;
-use crate::methods::contact_step::{self, Group, Link, Mass, Outcome, Watched};
+use crate::methods::contact_step::{
+    self, Group, Link, Mass, Outcome, Surroundings, Watched, matter,
+};
 use crate::solvers::links::LinkSolver;
 use crate::world::joints::{index_of, is_smooth, keep, tie, tied};
-use crate::world::soft::take_ends;
+use crate::world::soft::{members, take_ends};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -313,20 +315,29 @@ impl World {
     }
 
     pub(super) fn step_group(&mut self, span: Span) -> Result<Outcome> {
-        if !self.scratch.soft.members.is_empty() {
-            return self.step_group_with_softs(span);
+        let gives_way = !self.scratch.soft.members.is_empty();
+        if gives_way {
+            self.restore_members();
         }
         let Self { state, scratch, plan, fields, report, .. } = self;
-        let settings = contact_step::Settings {
-            law: state.settings.impact_law,
-            sweeps: state.settings.sweeps,
-            solver: state.settings.solver,
+        let State { settings, bodies, contacts, softs, .. } = state;
+        let how = contact_step::Settings {
+            law: settings.impact_law,
+            sweeps: settings.sweeps,
+            solver: settings.solver,
         };
         let resistance = plan.as_ref().is_some_and(|plan| plan.resistance);
-        let (bodies, contacts) = (&state.bodies, &state.contacts);
-        let mut around = Still { bodies, contacts, air: state.settings.air, resistance };
+        let (bodies, contacts) = (&*bodies, &*contacts);
+        let mut around = Still { bodies, contacts, air: settings.air, resistance };
+        let (gravity, soft) = (settings.gravity, &mut scratch.soft);
+        let mut soft = gives_way.then(|| members(softs, (bodies, contacts), gravity, soft));
+        let group = &mut scratch.contacts.group;
+        let mut run = |around: &mut dyn Surroundings| match &mut soft {
+            None => contact_step::run(group, span, how, around),
+            Some((members, solve)) => matter::run(group, span, how, (around, members, solve)),
+        };
         if plan.as_ref().is_none_or(|plan| plan.together == 0) {
-            return contact_step::run(&mut scratch.contacts.group, span, settings, &mut around);
+            return run(&mut around);
         }
         let forces = Forces {
             handles: &bodies.map,
@@ -334,8 +345,8 @@ impl World {
             infos: &bodies.infos,
             members: &[],
             steady: &scratch.steady,
-            gravity: state.settings.gravity,
-            air: state.settings.air,
+            gravity: settings.gravity,
+            air: settings.air,
             fields,
             resistance,
             buffers: &mut scratch.forces,
@@ -350,7 +361,7 @@ impl World {
             accelerations: Vec::new(),
             before: None,
         };
-        let outcome = contact_step::run(&mut scratch.contacts.group, span, settings, &mut acting);
+        let outcome = run(&mut acting);
         report.evaluations += acting.forces.evaluations;
         outcome
     }

@@ -19,7 +19,6 @@ mod strays;
 mod surroundings;
 mod touching;
 mod view;
-mod with_softs;
 
 pub(super) use advance::ContactScratch;
 pub(super) use backup::ContactBackup;

@@ -261,7 +261,6 @@ impl Pair {
             friction: self.friction,
             restitution: self.restitution,
             tangent_speed: self.tangent_speed,
-            tied: false,
             grip: Grip { key, ..Grip::default() },
             handed: Vec2::zeros(),
         }
