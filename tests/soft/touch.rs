@@ -105,6 +105,24 @@ fn what_is_crushed_flat_gets_no_energy_from_nothing() {
 }
 
 #[test]
+fn what_is_put_into_the_floor_comes_out() {
+    for gravity in [-9.81, 0.0] {
+        let mut world = with_floor();
+        world.set_gravity(vec2(0.0, gravity)).unwrap();
+        let def = SoftDef { position: vec2(0.0, 0.47), ..block(material(1e5, 0.3)) };
+        let body = world.add_soft_body(def).unwrap();
+        let low = |world: &World| {
+            let body = world.soft_body(body).unwrap();
+            body.positions().iter().map(|p| p.y).fold(Real::INFINITY, Real::min) - body.radius()
+        };
+        let start = low(&world);
+        world.steps(STEP, 240).unwrap();
+        let end = low(&world);
+        assert!(end > 0.1 * start, "{gravity}: from {start} to {end} m");
+    }
+}
+
+#[test]
 fn blocks_stack_on_one_another() {
     let mut world = with_floor();
     let bodies: Vec<_> = (0..3)

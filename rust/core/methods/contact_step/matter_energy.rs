@@ -9,8 +9,6 @@ use crate::math::{Real, Vec2};
 /// Part of the energy of the change of velocities that rows may give before all are weakened alike, and how often they are.
 const LITTLE: Real = 1e-3;
 const WEAKENED: usize = 4;
-/// The same part up to which parting what overlaps may give.
-const PARTED: Real = 0.5;
 
 impl Scratch {
     /// Weakens all rows alike as long as they give more than a little energy, which rows that are solved never do. Matter that is crushed is far
@@ -54,7 +52,7 @@ impl Scratch {
         }
         work.gain += (0..matters.count()).map(|k| matters.piece(k).excess()).sum::<Real>();
         work.changed += self.changed();
-        work.gain -= parted.min(PARTED * work.changed);
+        work.gain -= parted;
         work
     }
 
