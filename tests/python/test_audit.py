@@ -50,10 +50,11 @@ def jelly() -> cb.World:
     return world
 
 
-@pytest.mark.parametrize(
-    "make",
-    [cb.World, pile, water, jelly, *(partial(cb.scene, name) for name in ("S1", "S9", "S12", "C2"))],
-)
+WORLDS = [cb.World, pile, water, jelly]
+SCENES = [partial(cb.scene, name) for name in ("S1", "S9", "S12", "C2")]
+
+
+@pytest.mark.parametrize("make", [*WORLDS, *SCENES])
 def test_the_stages_that_a_world_names_are_those_that_run(make: Callable[[], cb.World]) -> None:
     world = make()
     world.timing = True
@@ -74,7 +75,11 @@ def test_an_audit_keeps_the_largest_deviations() -> None:
     world = pile()
     with cb.Audit(world) as audit:
         world.step(1 / 60, steps=60)
+    # The block ends the audit; what is done by hand afterwards is not in it.
+    speed = world.bodies[1].velocity
+    world.bodies[1].velocity = (9, 9)
     energy = audit.laws[0]
+    world.bodies[1].velocity = speed
     assert energy.name == "energy"
     assert energy.measured is not None
     text = str(audit)

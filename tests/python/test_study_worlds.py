@@ -86,6 +86,17 @@ def test_a_reference_may_be_given_or_found(shape: str) -> None:
     assert study.order["leapfrog"].exact
 
 
+def test_angles_count_by_the_size_of_the_body() -> None:
+    def turned(t: float) -> list[tuple[float, float, float]]:
+        return [(3 * t, 4 * t - G / 2 * t * t, 2 * t + 0.25)]
+
+    study = cb.study(
+        thrown, duration=1, steps=[0.1], tolerances=[], repeats=1, methods=["leapfrog"],
+        reference=turned, length=1.0,
+    )  # fmt: skip
+    assert study.rows[0].error == pytest.approx(0.25 * 0.1, rel=1e-9)
+
+
 def test_what_touches_has_its_error_against_the_exact_answer() -> None:
     study = cb.study(sliding, duration=1, steps=[1 / 60, 1 / 240], reference=stop, repeats=1)
     assert all(row.error < 1e-3 for row in study.rows)
@@ -146,14 +157,14 @@ def threads() -> Iterator[Executor]:
 @pytest.mark.parametrize("make", [threads, processes, dask])
 def test_any_executor_gives_the_same_rows(make: object) -> None:
     alone = cb.study(pendulum(), duration=1, steps=[0.02, 0.01], tolerances=[1e-6], repeats=1)
-    kepler = cb.study("kepler", steps=[0.1, 0.05], tolerances=[1e-6], repeats=1)
+    ball = cb.study("S1", steps=[0.1, 0.05], tolerances=[1e-6], repeats=1)
     for executor in make():  # type: ignore[operator]
         shared = cb.study(
             pendulum(), duration=1, steps=[0.02, 0.01], tolerances=[1e-6], repeats=1,
             executor=executor,
         )  # fmt: skip
-        own = cb.study("kepler", steps=[0.1, 0.05], tolerances=[1e-6], repeats=1, executor=executor)
-    for one, two in ((alone, shared), (kepler, own)):
+        own = cb.study("S1", steps=[0.1, 0.05], tolerances=[1e-6], repeats=1, executor=executor)
+    for one, two in ((alone, shared), (ball, own)):
         assert [(r.method, r.step, r.tolerance, r.error) for r in one.rows] == [
             (r.method, r.step, r.tolerance, r.error) for r in two.rows
         ]

@@ -147,6 +147,15 @@ fn explain_joints(plan: &Plan, by: Option<&str>, line: &mut dyn FnMut(&str, &str
     line("advance", &format!("{} {joints}: {what}", plan.joints));
 }
 
+/// How deformable bodies move.
+fn explain_softs(plan: &Plan, line: &mut dyn FnMut(&str, &str)) {
+    if plan.softs > 0 {
+        let bodies = if plan.softs == 1 { "body" } else { "bodies" };
+        let what = format!("{} deformable {bodies}, by the midpoint rule", plan.softs);
+        line("advance", &format!("{what}; what touches them with them, by the contact step"));
+    }
+}
+
 /// What is done about fluids.
 fn explain_fluid(plan: &Plan, particles: usize, line: &mut dyn FnMut(&str, &str)) {
     if plan.meeting == Meeting::Fluid {
@@ -227,11 +236,7 @@ impl World {
                 "what touches moves together, by the contact step instead of the below",
             );
         }
-        if plan.softs > 0 {
-            let bodies = if plan.softs == 1 { "body" } else { "bodies" };
-            let what = format!("{} deformable {bodies}, by the midpoint rule", plan.softs);
-            line("advance", &format!("{what}; what touches them with them, by the contact step"));
-        }
+        explain_softs(&plan, &mut line);
         let facts = self.method.facts();
         explain_joints(&plan, facts.joints.then_some(facts.name), &mut line);
         for (bodies, how) in [(&plan.closed, ""), (&plan.damped, " and damping")] {
