@@ -186,6 +186,11 @@ impl<T: Named> Arena<T> {
         Ok(&mut self.values[self.map.index(handle)?])
     }
 
+    /// Place of a value in [`Arena::values`], or an error if it is gone.
+    pub fn index(&self, handle: Handle<T>) -> Result<usize> {
+        self.map.index(handle)
+    }
+
     /// All values, densely.
     #[must_use]
     pub fn values(&self) -> &[T] {

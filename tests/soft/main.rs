@@ -1,5 +1,6 @@
 //! Deformable bodies in a world: what they keep, how they touch, what is refused.
 
+mod joints;
 mod laws;
 mod refusals;
 mod touch;

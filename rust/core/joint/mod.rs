@@ -44,9 +44,22 @@ pub struct Joint {
     pub reaction: Wrench,
     /// The notch at which a ratchet stands (rad).
     pub notch: Real,
+    /// It ties rigid bodies to one another or to the world: no filter, and no joint of matter.
+    pub rigid: bool,
+    /// Of sides that are points of matter, that.
+    pub matter: [Option<MatterEnd>; 2],
     /// The user's own rows, of a custom joint.
     #[serde(skip)]
     pub custom: Option<Custom>,
+}
+
+/// An end that is a point of matter, which its anchor follows.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MatterEnd {
+    /// 1/m of all of the matter (1/kg).
+    pub inverse_mass: Real,
+    /// Velocity of the point (m/s).
+    pub velocity: Vec2,
 }
 
 impl Joint {

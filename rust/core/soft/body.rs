@@ -8,7 +8,7 @@ use super::gas::Filling;
 use super::rod::{Bend, Rod, Stiffness};
 use super::tensor::{Tensor, scaled, sum};
 use super::triangle::{Triangle, cauchy, flowed, green};
-use super::{Moduli, SoftDef};
+use super::{Moduli, SoftDef, Spot};
 use crate::arena::{Handle, Named};
 use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Rot, Vec2, cross, perp};
@@ -77,6 +77,8 @@ pub(super) struct Work {
     pub matrix: Matrix,
     /// Columns of its inverse, for the nodes that are touched.
     pub columns: FxHashMap<u32, [Vec<Vec2>; 2]>,
+    /// Points that are held like nodes, numbered on from those.
+    pub spots: Vec<Spot>,
     /// Whether the factors are those of [`Moving::linear`].
     pub factored: bool,
     /// A⁻¹∇A of the gas, and the factor of the rank it adds.

@@ -12,6 +12,7 @@ mod mesh;
 mod plastic;
 mod relax;
 mod rod;
+mod spot;
 mod step;
 mod tensor;
 #[cfg(test)]
@@ -24,3 +25,4 @@ pub use def::{Rope, SoftDef};
 pub use gas::Gas;
 pub use material::{Material, Moduli, Plane};
 pub use mesh::Mesh;
+pub use spot::Spot;

@@ -4,6 +4,7 @@
 //! MΔv = h f(x⁻, x⁺) + p, with the forces of [`super::triangle`] and the impulses p of contacts. That is implicit in Δv, with
 //! A = M + (h²/4)K + (h/2)C in the middle; impulses act through A⁻¹.
 
+use super::Spot;
 use super::body::{Linear, Parts, SoftBody, Work};
 use super::triangle::{Rule, Step};
 use crate::constraints::matter::{Effort, Matter};
@@ -316,13 +317,58 @@ impl SoftBody {
     }
 }
 
+/// Nodes and, numbered on from those, the points that are held.
+impl SoftBody {
+    /// Sets the points that are held; returns the number of the first.
+    pub(crate) fn hold(&mut self, spots: &[Spot]) -> u32 {
+        if self.work.spots != spots {
+            self.work.spots.clear();
+            self.work.spots.extend_from_slice(spots);
+            self.work.columns.clear();
+        }
+        self.pinned.len() as u32
+    }
+
+    fn spot(&self, node: u32) -> Option<&Spot> {
+        let k = (node as usize).checked_sub(self.pinned.len())?;
+        Some(&self.work.spots[k])
+    }
+
+    /// What a column says of a node or a point.
+    fn of(&self, node: u32, column: &[Vec2]) -> Vec2 {
+        self.spot(node).map_or_else(|| column[node as usize], |spot| spot.of(column))
+    }
+
+    /// A⁻¹ of a unit impulse along an axis on a node or a point, as the body stood when it was linearised.
+    fn column(&mut self, node: u32, axis: Vec2) -> Vec<Vec2> {
+        let mut column = vec![Vec2::zeros(); self.pinned.len()];
+        let mut put = |node: u32, weight: Real| {
+            if !self.pinned[node as usize] {
+                column[node as usize] += axis * weight;
+            }
+        };
+        match self.spot(node) {
+            None => put(node, 1.0),
+            Some(spot) => spot.parts().for_each(|(node, weight)| put(node, weight)),
+        }
+        self.solve_as_linearised(&mut column);
+        column
+    }
+}
+
 impl Matter for SoftBody {
     fn begin(&mut self, h: Real) {
         self.start(h);
     }
 
     fn push(&mut self, node: u32, impulse: Vec2) {
-        self.work.impulses[node as usize] += impulse;
+        let Some(spot) = self.spot(node).copied() else {
+            self.work.impulses[node as usize] += impulse;
+            return;
+        };
+        for (node, weight) in spot.parts() {
+            self.work.impulses[node as usize] += impulse * weight;
+        }
     }
 
     fn settle(&mut self) -> Effort {
@@ -330,31 +376,27 @@ impl Matter for SoftBody {
     }
 
     fn place(&self, node: u32) -> Vec2 {
-        self.moving.positions[node as usize]
+        self.of(node, &self.moving.positions)
     }
 
     fn lead(&self, node: u32) -> Vec2 {
         if self.work.relaxes {
             return Vec2::zeros();
         }
-        self.work.change[node as usize] * (0.25 * self.work.h)
+        self.of(node, &self.work.change) * (0.25 * self.work.h)
     }
 
     fn velocities(&self, node: u32) -> [Vec2; 2] {
-        [self.work.before[node as usize], self.moving.velocities[node as usize]]
+        let now = self.of(node, &self.moving.velocities);
+        // None before the first substep.
+        let before = &self.work.before;
+        [if before.is_empty() { now } else { self.of(node, before) }, now]
     }
 
     fn respond(&mut self, nodes: &[u32], out: &mut Vec<[Real; 4]>) {
         for &node in nodes {
             if !self.work.columns.contains_key(&node) {
-                let columns = [Vec2::x(), Vec2::y()].map(|axis| {
-                    let mut column = vec![Vec2::zeros(); self.pinned.len()];
-                    if !self.pinned[node as usize] {
-                        column[node as usize] = axis;
-                        self.solve_as_linearised(&mut column);
-                    }
-                    column
-                });
+                let columns = [Vec2::x(), Vec2::y()].map(|axis| self.column(node, axis));
                 self.work.columns.insert(node, columns);
             }
         }
@@ -363,7 +405,7 @@ impl Matter for SoftBody {
         for i in nodes {
             for j in nodes {
                 let [x, y] = &self.work.columns[j];
-                let (x, y) = (x[*i as usize], y[*i as usize]);
+                let (x, y) = (self.of(*i, x), self.of(*i, y));
                 // R B Rᵀ.
                 let turned = |v: Vec2| [cos * v.x - sin * v.y, sin * v.x + cos * v.y];
                 let (a, b) = (turned(x), turned(y));

@@ -92,7 +92,7 @@ impl Start {
         }
         state.contacts.patches.clone_from(&self.patches);
         recall(&self.joints, state);
-        self.softs.restore(&mut state.softs);
+        self.softs.restore(&mut state.softs, &mut state.joints);
         (state.clock, state.ledger) = (self.clock, self.ledger);
     }
 }
@@ -149,7 +149,6 @@ impl Backup {
         if applied {
             state.bodies.applied.clone_from(&self.applied);
         }
-        self.softs.restore(&mut state.softs);
         if self.collides {
             self.contacts.restore(&mut state.contacts);
         }
@@ -158,6 +157,7 @@ impl Backup {
             Some(joints) => state.joints.clone_from(joints),
             None => recall(&self.joints, state),
         }
+        self.softs.restore(&mut state.softs, &mut state.joints);
         // A call that moves the world adds and removes no fluid.
         if !state.fluids.list.values().is_empty() {
             state.fluids.clone_from(&self.fluids);

@@ -71,7 +71,7 @@ impl Plan {
             }
         }
         let ties = |joint: &&crate::joint::Joint| tied(bodies, joint).is_some();
-        plan.joints = state.joints.values().iter().filter(ties).count();
+        plan.joints = state.joints.values().iter().filter(ties).count() + state.softs.joints.len();
         plan.softs = state.softs.bodies.values().len();
         if contacts.touchable() > usize::from(plan.softs == 0) {
             let moving = (0..bodies.len()).filter(|i| {

@@ -4,14 +4,17 @@
 //! blocks of rigid contacts and the joints; then the matter settles, nonlinear as it is, under the impulses it got, and what that leaves
 //! is swept again.
 
+use super::matter_direct::{Bearing, Saved};
 use super::matter_energy::book;
+use super::matter_lever::Lever;
+use super::matter_ties::{End, MatterTie, remember};
 use super::{
     Group, Outcome, Settings, Surroundings, impacts, joints, kick, place_blocks, prepare_rows,
     project,
 };
 use crate::constraints::matter::{Effort, Matter, Point, Side};
 use crate::error::Result;
-use crate::math::{Real, Twist, Vec2, cross};
+use crate::math::{Real, Vec2, cross};
 use crate::methods::Span;
 use crate::solvers::sweep::{self, Budget};
 
@@ -49,6 +52,8 @@ const MOST: Real = 0.02;
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
     pub(super) points: Vec<Point>,
+    /// Joints that hold points of matter.
+    pub ties: Vec<MatterTie>,
     pub(super) rows: Vec<Row>,
     /// Nodes that are touched, piece after piece, and where each piece begins; one more ends the last.
     pub(super) nodes: Vec<u32>,
@@ -61,8 +66,9 @@ pub struct Scratch {
     pub(super) right: Vec<Real>,
     /// Impulses on the touched nodes.
     pub(super) pushed: Vec<Vec2>,
-    pub(super) bearing: Vec<(u32, Vec2)>,
-    pub(super) saved: (Vec<[Real; 2]>, Vec<Vec2>, Vec<Twist>),
+    pub(super) bearing: Vec<Bearing>,
+    pub(super) levers: Vec<[Lever; 2]>,
+    pub(super) saved: Saved,
 }
 
 /// The rows of a point as sweeps see them.
@@ -91,6 +97,7 @@ pub fn run(
     joints::start(group);
     for k in 0..span.substeps {
         joints::remember(group);
+        remember(group, matters, &mut scratch.ties);
         outcome.ledger.dissipated += around.drift(h / 2.0, group)?;
         (0..matters.count()).for_each(|k| matters.piece(k).begin(h));
         around.accelerate((span.time(k) + h / 2.0, h), group)?;
@@ -116,6 +123,7 @@ pub fn run(
             outcome.ledger.correction_work += joints::close(group, h);
             joints::book_dampers(group, &mut outcome.ledger);
         }
+        scratch.book_dampers(group, matters, &mut outcome.ledger);
         if !group.watch.blocks.is_empty() {
             group.note_thrown();
         }
@@ -137,12 +145,18 @@ fn solve(
         point.handed = point.impulse();
         push(group, matters, point);
     }
+    scratch.start_ties(group, h, matters);
     let mut effort = settle_all(matters);
     scratch.gather(matters);
     let scale = scratch.aim(group, matters, h).max(fastest);
-    let budget = Budget { tolerance: CALM * scale, most: settings.sweeps };
+    let mut scale = scale.max(scratch.aim_ties(group, h, matters));
+    let mut budget = Budget { tolerance: CALM * scale, most: settings.sweeps };
     for round in 0..ROUNDS {
         scratch.take(matters);
+        if round > 0 && !scratch.ties.is_empty() {
+            scale = scratch.aim_ties(group, h, matters).max(scale);
+            budget.tolerance = CALM * scale;
+        }
         let (sweeps, residual) = scratch.solve_rows(group, budget);
         outcome.sweeps += u64::from(sweeps);
         let before = scratch.given(matters);
@@ -200,7 +214,7 @@ fn push(group: &mut Group, matters: &mut dyn Matters, point: &Point) {
 impl Scratch {
     /// Numbers the nodes that are touched, and finds A⁻¹ among them.
     fn gather(&mut self, matters: &mut dyn Matters) {
-        let Self { points, rows, nodes, first, velocities, responses, .. } = self;
+        let Self { points, ties, rows, nodes, first, velocities, responses, .. } = self;
         nodes.clear();
         first.clear();
         let count = matters.count();
@@ -214,6 +228,13 @@ impl Scratch {
                     nodes.extend(
                         pair.iter().zip(weights).filter(|(_, w)| **w != 0.0).map(|(n, _)| *n),
                     );
+                }
+            }
+            for end in ties.iter().flat_map(|tie| &tie.ends) {
+                if let End::Point(piece, node) = *end
+                    && piece as usize == k
+                {
+                    nodes.push(node);
                 }
             }
             nodes[start..].sort_unstable();
@@ -247,6 +268,14 @@ impl Scratch {
             }
             rows.push(row);
         }
+        for tie in ties {
+            for (end, touched) in tie.ends.iter().zip(&mut tie.touched) {
+                let End::Point(piece, node) = *end else { continue };
+                let own = first[piece as usize]..first[piece as usize + 1];
+                let at = nodes[own.clone()].binary_search(&node).unwrap_or(0);
+                *touched = (own.start + at) as u32;
+            }
+        }
     }
 
     /// Targets and responses of the rows; returns the size of the velocities that they deal with (m/s).
@@ -279,6 +308,10 @@ impl Scratch {
         scale
     }
 
+    fn is_empty(&self) -> bool {
+        self.rows.is_empty() && self.ties.is_empty()
+    }
+
     /// Takes the velocities of the nodes that are touched.
     fn take(&mut self, matters: &mut dyn Matters) {
         for k in 0..matters.count() {
@@ -309,34 +342,13 @@ impl Scratch {
 
     /// nn, nt, tt of the response at point k.
     fn response(&self, group: &Group, k: usize) -> [Real; 3] {
-        let (point, row) = (&self.points[k], &self.rows[k]);
-        let [n, t] = point.directions();
-        let mut sum = [0.0; 3];
-        for side in &point.sides {
-            if let Side::Body(slot, arm) = *side {
-                let velocity = &group.velocities[slot as usize];
-                let lever = |d: Vec2| (d, cross(arm, d));
-                sum[0] += velocity.coupling(lever(n), lever(n));
-                sum[1] += velocity.coupling(lever(n), lever(t));
-                sum[2] += velocity.coupling(lever(t), lever(t));
-            }
-        }
-        for a in (0..4).filter(|a| row.weights[*a] != 0.0) {
-            for b in (0..4).filter(|b| row.weights[*b] != 0.0) {
-                let Some(block) = self.block(row.places[a], row.places[b]) else { continue };
-                let weight = row.weights[a] * row.weights[b];
-                let through = |from: Vec2, to: Vec2| weight * to.dot(&apply(&block, from));
-                sum[0] += through(n, n);
-                sum[1] += through(t, n);
-                sum[2] += through(t, t);
-            }
-        }
-        sum
+        let [n, t] = self.points[k].directions().map(|along| self.lever_of_point(k, along));
+        [(&n, &n), (&n, &t), (&t, &t)].map(|(a, b)| self.coupling(group, a, b))
     }
 
     /// The block of A⁻¹ between two touched nodes; none between those of different pieces.
     pub(super) fn block(&self, a: u32, b: u32) -> Option<[Real; 4]> {
-        let piece = self.first.partition_point(|first| *first <= a as usize) - 1;
+        let piece = self.piece_of(a);
         let range = self.first[piece]..self.first[piece + 1];
         if !range.contains(&(b as usize)) {
             return None;
@@ -349,12 +361,15 @@ impl Scratch {
     fn solve_rows(&mut self, group: &mut Group, budget: Budget) -> (u32, Real) {
         let mut sweeps = 0;
         let mut residual = 0.0;
+        if !self.ties.is_empty() {
+            self.solve_together(group);
+        }
         for attempt in 0..ATTEMPTS {
             let last = attempt + 1 == ATTEMPTS;
             let most = if last { SWEEPS * budget.most } else { budget.most };
             let (own, left) = self.sweep(group, budget, most);
             (sweeps, residual) = (sweeps + own, left);
-            if residual <= budget.tolerance || self.rows.is_empty() || last {
+            if residual <= budget.tolerance || self.is_empty() || last {
                 break;
             }
             if !self.solve_together(group) {
@@ -379,6 +394,7 @@ impl Scratch {
                 let (_, residual) = sweep::solve(&mut group.velocities, &mut group.blocks, single);
                 change = residual.max(change);
             }
+            change = self.sweep_ties(group).max(change);
             // To and fro, so that what is pushed at one end is felt at the other.
             for at in 0..self.rows.len() {
                 let k = if sweep % 2 == 1 { at } else { self.rows.len() - 1 - at };
@@ -412,24 +428,16 @@ impl Scratch {
 
     /// Lets both sides of point k feel an impulse.
     pub(super) fn give(&mut self, group: &mut Group, k: usize, impulse: Vec2) {
-        let (point, row) = (&self.points[k], &self.rows[k]);
-        for (s, (side, sign)) in point.sides.iter().zip([-1.0, 1.0]).enumerate() {
+        let (sides, row) = (self.points[k].sides, self.rows[k]);
+        for (s, (side, sign)) in sides.iter().zip([-1.0, 1.0]).enumerate() {
             match *side {
                 Side::Body(slot, arm) => {
                     group.velocities[slot as usize].push_at(arm, impulse * sign);
                 }
-                Side::Nodes(piece, ..) => {
-                    let range = self.first[piece as usize]..self.first[piece as usize + 1];
-                    let responses = &self.responses[piece as usize];
+                Side::Nodes(..) => {
                     for n in [2 * s, 2 * s + 1].into_iter().filter(|n| row.weights[*n] != 0.0) {
-                        let p = impulse * row.weights[n];
-                        // Of a symmetric matrix the row of a node is its column.
-                        let at = (row.places[n] as usize - range.start) * range.len();
-                        let blocks = &responses[at..at + range.len()];
-                        for (v, block) in self.velocities[range.clone()].iter_mut().zip(blocks) {
-                            v.x += block[0] * p.x + block[2] * p.y;
-                            v.y += block[1] * p.x + block[3] * p.y;
-                        }
+                        let (place, weight) = (row.places[n], row.weights[n]);
+                        self.push_node(place, impulse * weight);
                     }
                 }
             }
@@ -438,7 +446,7 @@ impl Scratch {
 
     /// Hands the pieces what sweeps have given since they settled; returns the largest of it (N·s).
     pub(super) fn given(&mut self, matters: &mut dyn Matters) -> Real {
-        let mut largest: Real = 0.0;
+        let mut largest = self.given_by_ties(matters);
         for point in &mut self.points {
             let impulse = point.impulse();
             let change = impulse - point.handed;
@@ -460,6 +468,7 @@ impl Scratch {
 
     /// Lets impulses act on rigid bodies where they act on the matter, so that angular momentum is kept.
     pub(super) fn follow_lead(&self, group: &mut Group, matters: &mut dyn Matters, part: Real) {
+        self.ties_follow_lead(group, matters, part);
         for point in &self.points {
             let impulse = point.impulse();
             for s in 0..2 {

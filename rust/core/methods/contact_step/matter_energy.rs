@@ -22,7 +22,8 @@ impl Scratch {
     ) {
         for time in 1..=WEAKENED {
             let mut work = self.gain(group, h, matters);
-            if !group.ties.is_empty() || work.gain <= LITTLE * work.changed {
+            if !group.ties.is_empty() || !self.ties.is_empty() || work.gain <= LITTLE * work.changed
+            {
                 return;
             }
             if time == WEAKENED {
@@ -96,7 +97,7 @@ fn given_to_nodes(point: &Point, matters: &mut dyn Matters) -> Real {
 pub(super) fn book(
     group: &mut Group,
     h: Real,
-    (matters, scratch): (&mut dyn Matters, &Scratch),
+    (matters, scratch): (&mut dyn Matters, &mut Scratch),
     outcome: &mut Outcome,
 ) {
     let work = group.row_work(h);
@@ -104,6 +105,7 @@ pub(super) fn book(
     if !group.ties.is_empty() {
         gained -= joints::book(group, h, &mut outcome.ledger);
     }
+    gained -= scratch.book_ties(group, h, matters, &mut outcome.ledger);
     outcome.ledger.work += work.given;
     for point in &scratch.points {
         gained += given_to_nodes(point, matters);

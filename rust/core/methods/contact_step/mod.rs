@@ -15,6 +15,8 @@ pub(in crate::methods) mod law;
 pub mod matter;
 mod matter_direct;
 mod matter_energy;
+mod matter_lever;
+pub mod matter_ties;
 pub mod newton;
 mod path;
 mod project;

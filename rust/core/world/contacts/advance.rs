@@ -21,7 +21,7 @@ use crate::methods::contact_step::{
 };
 use crate::solvers::links::LinkSolver;
 use crate::world::joints::{index_of, is_smooth, keep, tie, tied};
-use crate::world::soft::{members, take_ends};
+use crate::world::soft::{keep as keep_ties, members, take_ends};
 use crate::world::{State, World};
 
 /// Columns of the stage; kept between steps so that a warm step allocates nothing.
@@ -320,7 +320,7 @@ impl World {
             self.restore_members();
         }
         let Self { state, scratch, plan, fields, report, .. } = self;
-        let State { settings, bodies, contacts, softs, .. } = state;
+        let State { settings, bodies, contacts, softs, joints, .. } = state;
         let how = contact_step::Settings {
             law: settings.impact_law,
             sweeps: settings.sweeps,
@@ -330,11 +330,16 @@ impl World {
         let (bodies, contacts) = (&*bodies, &*contacts);
         let mut around = Still { bodies, contacts, air: settings.air, resistance };
         let (gravity, soft) = (settings.gravity, &mut scratch.soft);
-        let mut soft = gives_way.then(|| members(softs, (bodies, contacts), gravity, soft));
         let group = &mut scratch.contacts.group;
+        let mut soft = gives_way
+            .then(|| members(softs, (bodies, contacts), (joints, group, span), (gravity, soft)));
         let mut run = |around: &mut dyn Surroundings| match &mut soft {
             None => contact_step::run(group, span, how, around),
-            Some((members, solve)) => matter::run(group, span, how, (around, members, solve)),
+            Some((members, solve)) => {
+                let outcome = matter::run(group, span, how, (around, members, solve));
+                keep_ties(joints, &solve.ties, (span.duration, span.h()));
+                outcome
+            }
         };
         if plan.as_ref().is_none_or(|plan| plan.together == 0) {
             return run(&mut around);

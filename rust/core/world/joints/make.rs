@@ -6,13 +6,35 @@ use super::{index_of, law_of, pair_of};
 use crate::body::Bodies;
 use crate::constraints::joint::{Action, Law, Pair, Row};
 use crate::error::{Error, Result};
-use crate::joint::{Custom, Given, Joint, JointDef, JointKind, ROWS};
+use crate::joint::{Custom, Given, Joint, JointDef, JointKind, MatterEnd, ROWS};
 use crate::math::{Pose, Real, Wrench, floor};
 
 /// Checks a definition and makes the joint.
-pub(super) fn joint(bodies: &Bodies, mut def: JointDef, custom: Option<Custom>) -> Result<Joint> {
+pub(super) fn joint(bodies: &Bodies, def: JointDef, custom: Option<Custom>) -> Result<Joint> {
     def.validated()?;
-    let places = places(bodies, &def)?;
+    places(bodies, &def)?;
+    made(bodies, def, custom, [None; 2])
+}
+
+/// The same of a joint with sides that are points of matter, whose anchors say where those are.
+pub(in crate::world) fn with_matter(
+    bodies: &Bodies,
+    def: JointDef,
+    matter: [Option<MatterEnd>; 2],
+) -> Result<Joint> {
+    for body in def.bodies.into_iter().flatten() {
+        bodies.index(body)?;
+    }
+    made(bodies, def, None, matter)
+}
+
+fn made(
+    bodies: &Bodies,
+    mut def: JointDef,
+    custom: Option<Custom>,
+    matter: [Option<MatterEnd>; 2],
+) -> Result<Joint> {
+    let places = def.bodies.map(|body| body.and_then(|body| bodies.index(body).ok()));
     let frames = places.map(|i| i.map_or(Pose::IDENTITY, |i| bodies.origin(i)));
     for (anchor, frame) in def.anchors.iter_mut().zip(&frames) {
         if let Given::World(point) = *anchor {
@@ -29,7 +51,10 @@ pub(super) fn joint(bodies: &Bodies, mut def: JointDef, custom: Option<Custom>) 
         let is_unit = (length - 1.0).abs() <= 2.0 * Real::EPSILON;
         *axis = Given::Local(if is_unit { local } else { local / length });
     }
+    let rigid = def.kind != JointKind::Filter && matter == [None; 2];
     let mut joint = Joint {
+        rigid,
+        matter,
         def,
         springs: [None; ROWS],
         impulses: [0.0; ROWS],
@@ -46,7 +71,7 @@ pub(super) fn joint(bodies: &Bodies, mut def: JointDef, custom: Option<Custom>) 
 
 /// What a joint between the same bodies keeps when it is changed: springs that stay as they are and, where its rows are
 /// still of the same kinds, what these remember.
-pub(super) fn carry_over(bodies: &Bodies, before: &Joint, changed: &mut Joint) {
+pub(in crate::world) fn carry_over(bodies: &Bodies, before: &Joint, changed: &mut Joint) {
     let (old, new) = (before.def.kind, changed.def.kind);
     for (k, (own, known)) in changed.springs.iter_mut().zip(&before.springs).enumerate() {
         if old.spring(k) == new.spring(k) && own.is_some() && known.is_some() {
@@ -67,7 +92,7 @@ pub(super) fn carry_over(bodies: &Bodies, before: &Joint, changed: &mut Joint) {
 }
 
 /// Places of the bodies: two different ones, of which at least one can move.
-fn places(bodies: &Bodies, def: &JointDef) -> Result<[Option<usize>; 2]> {
+fn places(bodies: &Bodies, def: &JointDef) -> Result<()> {
     let mut places = [None; 2];
     for (place, body) in places.iter_mut().zip(def.bodies) {
         *place = body.map(|body| bodies.index(body)).transpose()?;
@@ -80,7 +105,7 @@ fn places(bodies: &Bodies, def: &JointDef) -> Result<[Option<usize>; 2]> {
         let allowed = "at least one dynamic body with an axis that is not locked";
         return Err(Error::invalid("the pair of bodies", "one that nothing can move", allowed));
     }
-    Ok(places)
+    Ok(())
 }
 
 /// Takes what was left open from where the bodies stand.
@@ -163,7 +188,11 @@ fn inverse(response: Real) -> Real {
 fn response(row: &Row, bodies: &Bodies, joint: &Joint) -> Real {
     (0..2)
         .filter_map(|side| {
-            let mass = &bodies.masses[index_of(bodies, joint, side)?];
+            let Some(i) = index_of(bodies, joint, side) else {
+                let inverse = joint.matter[side]?.inverse_mass;
+                return Some(row.response(side, [inverse, inverse, 0.0]));
+            };
+            let mass = &bodies.masses[i];
             let inverse = [mass.inverse.x, mass.inverse.y, mass.inverse_inertia];
             Some(row.response(side, inverse))
         })

@@ -1,7 +1,7 @@
 //! Joints of a world: made, read, changed, removed.
 
 mod advance;
-mod make;
+pub(super) mod make;
 mod step;
 mod swings;
 
@@ -89,6 +89,7 @@ impl World {
     /// Removes a joint.
     pub fn remove_joint(&mut self, joint: JointHandle) -> Result<()> {
         let joint = self.state.joints.remove(joint)?;
+        self.forget_soft_joints();
         self.rejoin(joint.def.bodies);
         Ok(())
     }
@@ -114,6 +115,9 @@ impl World {
         edit: impl FnOnce(&mut JointDef),
     ) -> Result<()> {
         let before = self.state.joints.get(joint)?;
+        if before.matter != [None; 2] {
+            return self.edit_soft_joint(joint, edit);
+        }
         let mut def = before.def.clone();
         edit(&mut def);
         let mut changed = make::joint(&self.state.bodies, def, before.custom.clone())?;
@@ -160,12 +164,13 @@ impl World {
         if let Ok(gone) = self.state.joints.remove(joint) {
             let (bodies, reaction) = (gone.def.bodies, gone.reaction);
             self.broken.push(BrokenJoint { time, joint, def: gone.def, reaction });
+            self.forget_soft_joints();
             self.rejoin(bodies);
         }
     }
 
     /// What ties two bodies has changed: both wake, and what they may touch is looked for anew.
-    fn rejoin(&mut self, bodies: [Option<BodyHandle>; 2]) {
+    pub(super) fn rejoin(&mut self, bodies: [Option<BodyHandle>; 2]) {
         self.wake_joined(bodies);
         for body in bodies.into_iter().flatten() {
             if let Ok(i) = self.state.bodies.index(body) {
@@ -186,6 +191,7 @@ impl World {
     /// Forgets the joints of a body that goes.
     pub(super) fn unjoin(&mut self, body: BodyHandle) {
         self.state.joints.retain(|joint| !joint.def.bodies.contains(&Some(body)));
+        self.forget_soft_joints();
     }
 
     /// Energy (J) in the springs of all joints: Σ ½kC².
@@ -269,7 +275,10 @@ impl<'a> JointRef<'a> {
     /// Velocity of B's anchor against A's (m/s).
     fn anchor_rate(&self, pair: &Pair) -> Vec2 {
         let law = law_of(self.bodies, self.joint);
-        let [a, b] = [0, 1].map(|side| pair.twists[side].at(pair.rots[side].apply(law.arms[side])));
+        let [a, b] = [0, 1].map(|side| match &self.joint.matter[side] {
+            Some(end) => end.velocity,
+            None => pair.twists[side].at(pair.rots[side].apply(law.arms[side])),
+        });
         b - a
     }
 
@@ -297,7 +306,7 @@ impl<'a> JointRef<'a> {
 
     /// The rows where the bodies stand.
     fn rows(&self) -> Rows {
-        law_of(self.bodies, self.joint).rows(&self.pair())
+        rows_of(self.bodies, self.joint)
     }
 
     fn pair(&self) -> Pair {
@@ -307,6 +316,17 @@ impl<'a> JointRef<'a> {
     fn index(&self, side: usize) -> Option<usize> {
         index_of(self.bodies, self.joint, side)
     }
+}
+
+/// The rows of a joint where its ends stand.
+pub(super) fn rows_of(bodies: &Bodies, joint: &Joint) -> Rows {
+    law_of(bodies, joint).rows(&pair_of(bodies, joint))
+}
+
+/// Whether a row acts on angles, and on nothing else.
+pub(super) fn row_is_turn(row: &crate::constraints::joint::Row) -> bool {
+    let acts = row.action != Action::Off && row.bound > 0.0;
+    acts && row.jacobian.iter().all(|[x, y, _]| *x == 0.0 && *y == 0.0)
 }
 
 /// Place of a joint's body; none: the world.

@@ -33,7 +33,7 @@ impl Memory {
 
 /// The bodies that a joint ties, if it does anything: of one with the world its body twice.
 pub(in crate::world) fn tied(bodies: &Bodies, joint: &Joint) -> Option<[u32; 2]> {
-    if joint.def.kind == JointKind::Filter {
+    if !joint.rigid {
         return None;
     }
     match [0, 1].map(|side| index_of(bodies, joint, side).map(|i| i as u32)) {

@@ -1,11 +1,13 @@
 //! Deformable bodies in the groups of the contact step.
 
-use super::Softs;
 use super::touch::Borders;
+use super::{Softs, follow, ties};
+use crate::arena::Arena;
 use crate::body::{Bodies, Friction};
 use crate::collision::ProxyId;
 use crate::constraints::Matter;
 use crate::constraints::matter::{Grip, Point};
+use crate::joint::Joint;
 use crate::math::{Real, Vec2};
 use crate::methods::Span;
 use crate::methods::contact_step::Group;
@@ -40,6 +42,10 @@ pub enum Against {
 pub struct SoftScratch {
     pub pairs: Vec<Pair>,
     pub boxes: Vec<Aabb>,
+    /// What joints tie: bodies by their places, deformable ones on from those.
+    pub joined: Vec<[u32; 2]>,
+    /// Of those, what does not touch.
+    pub apart: Vec<[u32; 2]>,
     pub borders: Borders,
     /// Deformable bodies of the group at work.
     pub members: Vec<u32>,
@@ -75,7 +81,7 @@ impl SoftScratch {
             };
             [other, bodies + pair.soft]
         });
-        alone.chain(pairs)
+        alone.chain(pairs).chain(self.joined.iter().copied())
     }
 }
 
@@ -144,6 +150,7 @@ impl World {
         grips.sort_unstable_by_key(|grip| grip.key);
         state.softs.grips.clone_from(grips);
         state.softs.substep = span.h();
+        follow(&state.softs, &mut state.joints);
     }
 }
 
@@ -151,11 +158,12 @@ impl World {
 pub(in crate::world) fn members<'a>(
     softs: &'a mut Softs,
     (bodies, contacts): (&'a Bodies, &'a Contacts),
-    gravity: Vec2,
-    soft: &'a mut SoftScratch,
+    (joints, group, span): (&Arena<Joint>, &Group, Span),
+    (gravity, soft): (Vec2, &'a mut SoftScratch),
 ) -> (Members<'a>, &'a mut Scratch) {
     let SoftScratch { pairs, borders, members, grips, solve, .. } = soft;
-    let Softs { bodies: list, grips: before, substep } = softs;
+    ties((softs, members), (bodies, joints), (group, span.h()), &mut solve.ties);
+    let Softs { bodies: list, grips: before, substep, .. } = softs;
     let softs = list.values_mut();
     for k in &*members {
         let body = &mut softs[*k as usize];

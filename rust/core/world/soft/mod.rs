@@ -1,24 +1,30 @@
 //! Deformable bodies of a world.
 
 mod advance;
+mod joints;
 mod look;
 mod touch;
 
 pub(super) use advance::{SoftScratch, members, take_ends};
+pub(super) use joints::{follow, keep, ties};
 
 use serde::{Deserialize, Serialize};
 
 use crate::arena::Arena;
 use crate::constraints::matter::Grip;
 use crate::error::Result;
+use crate::joint::Joint;
 use crate::math::Vec2;
 use crate::soft::{Gas, Moving, SoftBody, SoftDef, SoftHandle};
 use crate::world::World;
+use joints::SoftJoint;
 
 /// The deformable bodies, and what their contacts remember.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Softs {
     pub bodies: Arena<SoftBody>,
+    /// Joints that hold points of them.
+    pub joints: Vec<SoftJoint>,
     /// In the order of their keys.
     pub grips: Vec<Grip>,
     /// Length (s) of the substep that their impulses are of.
@@ -52,7 +58,7 @@ impl SoftBackup {
         self.substep = softs.substep;
     }
 
-    pub fn restore(&self, softs: &mut Softs) {
+    pub fn restore(&self, softs: &mut Softs, joints: &mut Arena<Joint>) {
         if softs.is_empty() {
             return;
         }
@@ -61,6 +67,7 @@ impl SoftBackup {
         }
         softs.grips.clone_from(&self.grips);
         softs.substep = self.substep;
+        follow(softs, joints);
     }
 }
 
@@ -82,6 +89,8 @@ impl World {
     /// # Errors
     /// [`crate::Error::StaleHandle`] for one that is gone.
     pub fn remove_soft_body(&mut self, body: SoftHandle) -> Result<()> {
+        self.state.softs.bodies.get(body)?;
+        self.unjoin_soft(body);
         self.state.softs.bodies.remove(body)?;
         self.softs_changed();
         Ok(())
@@ -159,6 +168,7 @@ impl World {
         change: impl FnOnce(&mut SoftBody) -> Result<()>,
     ) -> Result<()> {
         change(self.state.softs.bodies.get_mut(body)?)?;
+        follow(&self.state.softs, &mut self.state.joints);
         self.wake_all();
         Ok(())
     }

@@ -13,10 +13,10 @@ mod motors;
 mod prepare;
 mod together;
 
-pub use active::{ROUNDS, Row, TOGETHER, TURN, solve};
+pub use active::{ROUNDS, Row, State, TOGETHER, TURN, solve};
 pub use close::close;
 pub use load::{take_loads, turning_rate};
-pub use prepare::prepare;
+pub use prepare::{against, prepare, reach};
 
 use super::Group;
 use crate::constraints::joint::{self, Action, Law, Pair, Rates, Rows};
@@ -212,17 +212,22 @@ pub fn book(group: &mut Group, h: Real, ledger: &mut Ledger) -> Real {
             let given = -row.impulse * now.velocity([&driver[0], &driver[1]]);
             gained += row.work + given;
             ledger.work += given;
-            match now.action {
-                Action::Drive(speed) if speed != 0.0 => ledger.work += row.work,
-                // What draws with a bounded force is driven by whoever moves it.
-                Action::Hold if now.bound < Real::INFINITY => ledger.work += row.work,
-                Action::Hold | Action::Limit | Action::Drive(_) => ledger.dissipated -= row.work,
-                Action::Spring(_) | Action::Off => {}
-            }
+            book_row(now, row, ledger);
             tie.given += on_b(tie, now, row.impulse, places);
         }
     }
     gained
+}
+
+/// Books the work of a row by what it is.
+pub fn book_row(now: &joint::Row, row: &Row, ledger: &mut Ledger) {
+    match now.action {
+        Action::Drive(speed) if speed != 0.0 => ledger.work += row.work,
+        // What draws with a bounded force is driven by whoever moves it.
+        Action::Hold if now.bound < Real::INFINITY => ledger.work += row.work,
+        Action::Hold | Action::Limit | Action::Drive(_) => ledger.dissipated -= row.work,
+        Action::Spring(_) | Action::Off => {}
+    }
 }
 
 /// What an impulse of a row gives B, about its anchor.
@@ -240,14 +245,53 @@ pub fn book_dampers(group: &Group, ledger: &mut Ledger) {
     let ties = &group.ties;
     for tie in &ties.list {
         for (k, now) in tie.end.as_slice().iter().enumerate() {
-            let row = &ties.rows[tie.first_row + k];
-            if let Action::Spring(spring) = now.action
-                && spring.damping > 0.0
-            {
-                let (from, to) = (row.from, now.position);
-                let kept = 0.5 * spring.stiffness * (to - from) * (to + from);
-                ledger.dissipated -= row.work + kept;
-            }
+            book_damper(now, &ties.rows[tie.first_row + k], ledger);
         }
+    }
+}
+
+/// The same of one row, which ends at `now`.
+pub fn book_damper(now: &joint::Row, row: &Row, ledger: &mut Ledger) {
+    if let Action::Spring(spring) = now.action
+        && spring.damping > 0.0
+    {
+        let (from, to) = (row.from, now.position);
+        let kept = 0.5 * spring.stiffness * (to - from) * (to + from);
+        ledger.dissipated -= row.work + kept;
+    }
+}
+
+/// Rows of joints between rigid bodies, for a solve of all rows of a group with matter.
+impl Ties {
+    /// Those that are solved, not at a bound: by joint and row.
+    pub fn solved(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let all =
+            self.list.iter().enumerate().flat_map(|(t, tie)| {
+                (0..tie.middle.count).map(move |k| ((t, k), tie.first_row + k))
+            });
+        all.filter(|(_, row)| self.rows[*row].state == State::Solved).map(|(at, _)| at)
+    }
+
+    /// A row, and what it asks for.
+    #[must_use]
+    pub fn row(&self, (t, k): (usize, usize)) -> (&Tie, &joint::Row, &Row) {
+        let tie = &self.list[t];
+        (tie, &tie.middle.rows[k], &self.rows[tie.first_row + k])
+    }
+
+    /// Adds to the impulse of a row.
+    pub fn add_to(&mut self, (t, k): (usize, usize), impulse: Real) {
+        let first = self.list[t].first_row;
+        self.rows[first + k].impulse += impulse;
+    }
+
+    /// Impulses of all rows, to go back to.
+    pub fn impulses(&self) -> impl Iterator<Item = Real> + '_ {
+        self.rows.iter().map(|row| row.impulse)
+    }
+
+    /// Goes back to them.
+    pub fn set_impulses(&mut self, impulses: &[Real]) {
+        self.rows.iter_mut().zip(impulses).for_each(|(row, impulse)| row.impulse = *impulse);
     }
 }

@@ -68,10 +68,16 @@ fn limit(row: &mut Row, now: &joint::Row, (curve, start): (Real, &joint::Row), h
     }
     let loaded = row.impulse > 0.0;
     row.bounds = [0.0, Real::INFINITY];
-    let bends = (curve * h).abs();
-    let reached = now.position <= 0.0 || (loaded && now.position <= bends);
-    row.wanted = if reached { curve } else { -now.position / h };
+    let (wanted, reached) = reach(loaded, now.position, curve, h);
+    row.wanted = wanted;
     row.state = if loaded || reached { State::Solved } else { State::Pinned };
+}
+
+/// Speed that a limit asks for at a position, and whether it is reached.
+pub fn reach(loaded: bool, position: Real, curve: Real, h: Real) -> (Real, bool) {
+    let bends = (curve * h).abs();
+    let reached = position <= 0.0 || (loaded && position <= bends);
+    (if reached { curve } else { -position / h }, reached)
 }
 
 /// Speed (m/s) along row k of a hold with a bounded force that is open: what closes it in a substep, and no more than half
@@ -110,7 +116,7 @@ fn coupling(tie: &Tie, [a, b]: [&joint::Row; 2], velocities: &[Velocity]) -> Rea
 }
 
 /// Whether two rows run against each other.
-fn against(a: &joint::Row, b: &joint::Row) -> bool {
+pub fn against(a: &joint::Row, b: &joint::Row) -> bool {
     let dot = |side: usize| -> Real {
         a.jacobian[side].iter().zip(b.jacobian[side]).map(|(x, y)| x * y).sum()
     };
