@@ -1387,7 +1387,11 @@ class _Joint:
 
     def __new__(cls, *_arguments: object, **_keywords: object) -> Self: ...
     def _make(
-        self, kind: str, body_a: Body | None, body_b: Body | None, **parameters: object
+        self,
+        kind: str,
+        body_a: Body | SoftBody | None,
+        body_b: Body | SoftBody | None,
+        **parameters: object,
     ) -> None:
         """Drafts a joint of a kind between two bodies; None is the world."""
     def _rule(self, function: Callable[..., Any], rows: int) -> None:
@@ -1403,10 +1407,10 @@ class _Joint:
     def kind(self) -> str:
         """The kind: "distance", "revolute", …"""
     @property
-    def body_a(self) -> Body | None:
+    def body_a(self) -> Body | SoftBody | None:
         """A; None: the world."""
     @property
-    def body_b(self) -> Body | None:
+    def body_b(self) -> Body | SoftBody | None:
         """B; None: the world."""
     @property
     def world(self) -> World | None:

@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from culbuto import joints
+from culbuto._native import Body
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from culbuto._native import Body, World
+    from culbuto._native import World
 
 Points = NDArray[np.float64]
 
@@ -95,9 +96,9 @@ def _spiral(center: Points, size: float) -> Points:
     return _circle(center, np.linspace(0.5, 2.2, 61) * size, 2.5, 60)
 
 
-def _center(body: Body | None, otherwise: Points) -> Points:
-    """Of mass, of a body; the world has none."""
-    return otherwise if body is None else np.array(body.center_of_mass)
+def _center(body: joints.Part | None, otherwise: Points) -> Points:
+    """Of mass, of a body; the world and a point have none."""
+    return np.array(body.center_of_mass) if isinstance(body, Body) else otherwise
 
 
 _Ends: TypeAlias = tuple[Points, Points]
@@ -177,7 +178,8 @@ def _grab(mark: Mark, _: joints.GrabJoint, ends: _Ends, size: float) -> None:
 def _motor(mark: Mark, joint: joints.MotorJoint, ends: _Ends, _: float) -> None:
     a, b = ends
     body, offset = joint.body_a, joint.linear_offset
-    target = offset + joint.anchor_a if body is None else body.world_point(joint.anchor_a + offset)
+    anchor = joint.anchor_a + offset
+    target = body.world_point(anchor) if isinstance(body, Body) else anchor
     goal = np.array(target)
     mark.thin.extend([np.array([a, goal]), np.array([goal, b])])
     mark.dots.append(b)

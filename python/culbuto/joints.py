@@ -22,7 +22,8 @@ True
 
 All of them take:
 
-- two bodies, A and B, of which either may be None: the world;
+- two bodies, A and B, of which either may be None: the world. Either may be deformable, if the
+  joint holds points and no angles: it then holds the point of the material that is nearest;
 - where they are held: `anchor_a` and `anchor_b` (m) in the bodies' frames, or `points`, one for
   each, or one `point` for both, in the world; the bodies' origins, if nothing is given;
 - `collide_connected`: whether A and B can touch each other;
@@ -37,7 +38,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypedDict, TypeVar, cast, final, overload
 
-from culbuto._native import Vec2, _Joint
+from culbuto._native import Body, Vec2, _Joint
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -46,8 +47,9 @@ if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
     from typing_extensions import Self, Unpack
 
-    from culbuto._native import Body
+    from culbuto._native import SoftBody
 
+    Part: TypeAlias = Body | SoftBody
     _Vector: TypeAlias = Vec2 | Sequence[float] | NDArray[Any]
     _Points: TypeAlias = Sequence[_Vector] | NDArray[Any]
 
@@ -140,8 +142,12 @@ class Joint(_Joint):
     user's own. A joint that was removed raises `StaleHandleError`.
     """
 
-    anchor_a = _Place("Where it holds A, in A's frame (m).")
-    anchor_b = _Place("Where it holds B, in B's frame (m).")
+    anchor_a = _Place(
+        "Where it holds A, in A's frame (m); of a deformable one, in the world."
+    )
+    anchor_b = _Place(
+        "Where it holds B, in B's frame (m); of a deformable one, in the world."
+    )
     points = _Pair("Where it holds A and B, in the world (m).")
     collide_connected = _Flag("Whether A and B can touch each other.")
     breaking_force = _Maybe("Force above which it breaks (N); None: never.")
@@ -189,7 +195,7 @@ class _Axial(Joint):
     def world_axis(self) -> Vec2:
         """Direction in the world."""
         body = self.body_a
-        if body is None:
+        if not isinstance(body, Body):
             return self.axis
         return body.world_point(self.axis) - body.position
 
@@ -235,8 +241,8 @@ class DistanceJoint(_Sprung):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         length: float | None = None,
         hertz: float | None = 0.0,
@@ -263,8 +269,8 @@ class RopeJoint(Joint):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         max_length: float,
         **others: Unpack[_Common],
@@ -285,8 +291,8 @@ class RevoluteJoint(_Sprung, _Turning):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         limits: tuple[float, float] | None = None,
         motor_speed: float | None = None,
@@ -319,8 +325,8 @@ class PrismaticJoint(_Sprung, _Sliding):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         axis: _Vector | None = None,
         world_axis: _Vector | None = None,
@@ -353,8 +359,8 @@ class WeldJoint(_TwiceSprung, _Turning):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         reference_angle: float | None = None,
         **others: Unpack[_TwoSprings],
@@ -374,8 +380,8 @@ class WheelJoint(_Sprung, _Sliding):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         axis: _Vector | None = None,
         world_axis: _Vector | None = None,
@@ -406,7 +412,7 @@ class GrabJoint(_Sprung):
 
     def __init__(
         self,
-        body: Body,
+        body: Part,
         target: _Vector,
         *,
         anchor: _Vector | None = None,
@@ -433,8 +439,8 @@ class MotorJoint(_TwiceSprung, _Turning):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         linear_offset: _Vector = (0.0, 0.0),
         angular_offset: float | None = None,
@@ -462,8 +468,8 @@ class GearJoint(Joint):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         ratio: float = 1.0,
         phase: float | None = None,
@@ -481,8 +487,8 @@ class PulleyJoint(Joint):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         over: _Points,
         ratio: float = 1.0,
@@ -509,8 +515,8 @@ class RackJoint(_Sliding):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         radius: float,
         axis: _Vector | None = None,
@@ -538,8 +544,8 @@ class RatchetJoint(_Turning):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         step: float,
         phase: float = 0.0,
@@ -557,8 +563,8 @@ class FrictionJoint(_Turning):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         max_force: float,
         max_torque: float,
@@ -576,8 +582,8 @@ class AngleSpringJoint(_Sprung, _Turning):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         *,
         hertz: float | None = None,
         damping_ratio: float = 0.0,
@@ -625,8 +631,8 @@ class CustomJoint(Joint):
 
     def __init__(
         self,
-        body_a: Body | None,
-        body_b: Body | None,
+        body_a: Part | None,
+        body_b: Part | None,
         constraint: _Constraint,
         *,
         rows: int = 1,

@@ -18,6 +18,7 @@ use crate::error::{StaleHandleError, to_py};
 use crate::joint_parameters::{Value, blank, joint_error, parameter, put, seen};
 use crate::joint_springs::{SpringMotion, Springs};
 use crate::parts::{Made, Place};
+use crate::soft::SoftBody;
 use crate::world::World;
 
 /// What the joints of all kinds are to the engine. Use `culbuto.Joint` and the classes of the kinds.
@@ -34,7 +35,51 @@ pub struct Joint {
 /// What is to be made. Once it is made, nothing is left of it.
 pub struct Draft {
     pub def: JointDef,
-    pub bodies: [Option<Py<Body>>; 2],
+    pub bodies: [Option<Held>; 2],
+}
+
+/// What a joint holds: a body, or a point of a deformable one.
+#[derive(FromPyObject, IntoPyObject)]
+pub enum Held {
+    Body(Py<Body>),
+    Soft(Py<SoftBody>),
+}
+
+impl Held {
+    fn clone_ref(&self, py: Python<'_>) -> Self {
+        match self {
+            Self::Body(body) => Self::Body(body.clone_ref(py)),
+            Self::Soft(body) => Self::Soft(body.clone_ref(py)),
+        }
+    }
+
+    /// An error, which calls it by this name, unless it is in this world.
+    fn check(&self, world: &Bound<'_, World>, name: &str) -> PyResult<()> {
+        let (same, alive) = match self {
+            Self::Body(body) => {
+                let place = &body.get().place;
+                (place.world.is(world), place.is_alive())
+            }
+            Self::Soft(body) => {
+                let place = &body.get().place;
+                (place.world.is(world), place.is_alive())
+            }
+        };
+        let message = match (same, alive) {
+            (true, true) => return Ok(()),
+            (false, _) => format!("{name} belongs to another world"),
+            _ => format!("{name} is no longer in its world: it was removed"),
+        };
+        Err(StaleHandleError::new_err(message))
+    }
+
+    fn repr(&self, py: Python<'_>) -> PyResult<String> {
+        let text = match self {
+            Self::Body(body) => body.bind(py).repr()?,
+            Self::Soft(body) => body.bind(py).repr()?,
+        };
+        Ok(text.to_string())
+    }
 }
 
 impl Draft {
@@ -42,7 +87,7 @@ impl Draft {
         Self { def: JointDef::new(None, None, JointKind::Filter), bodies: [None, None] }
     }
 
-    pub fn bodies(&self, py: Python<'_>) -> [Option<Py<Body>>; 2] {
+    pub fn bodies(&self, py: Python<'_>) -> [Option<Held>; 2] {
         self.bodies.each_ref().map(|body| body.as_ref().map(|body| body.clone_ref(py)))
     }
 }
@@ -133,12 +178,19 @@ impl Joint {
         }
     }
 
-    fn body(&self, py: Python<'_>, side: usize) -> PyResult<Option<Py<Body>>> {
+    fn body(&self, py: Python<'_>, side: usize) -> PyResult<Option<Held>> {
         let Some(place) = self.place.get() else {
             return Ok(self.draft().bodies(py)[side].take());
         };
-        let body = self.live(py, |joint| joint.def().bodies[side])?;
-        Ok(body.and_then(|body| place.world.get().body(py, body)))
+        let own = place.world.get();
+        let (rigid, soft) = {
+            let core = own.core(py)?;
+            let handle = place.handle()?;
+            let rigid = core.joint(handle).map_err(to_py)?.def().bodies[side];
+            (rigid, core.soft_ends(handle).map_err(to_py)?[side])
+        };
+        let rigid = rigid.and_then(|body| own.body(py, body)).map(Held::Body);
+        Ok(rigid.or_else(|| own.soft_body(py, soft?).map(Held::Soft)))
     }
 
     /// Removes the joint; its object stays, and says that it was removed.
@@ -169,14 +221,8 @@ impl Joint {
             (draft.def.clone(), draft.bodies(py))
         };
         for (name, body) in ["body_a", "body_b"].into_iter().zip(&bodies) {
-            let Some(place) = body.as_ref().map(|body| &body.get().place) else { continue };
-            if !place.world.is(world) {
-                let message = format!("{name} belongs to another world");
-                return Err(StaleHandleError::new_err(message));
-            }
-            if !place.is_alive() {
-                let message = format!("{name} is no longer in its world: it was removed");
-                return Err(StaleHandleError::new_err(message));
+            if let Some(body) = body {
+                body.check(world, name)?;
             }
         }
         let place = Place::new(world);
@@ -185,15 +231,25 @@ impl Joint {
         if own.place.get().is_some() {
             return Err(again());
         }
-        for (handle, body) in def.bodies.iter_mut().zip(&bodies) {
-            *handle = body.as_ref().map(|body| body.get().place.handle()).transpose()?;
+        let mut softs = [None; 2];
+        for ((handle, soft), body) in def.bodies.iter_mut().zip(&mut softs).zip(&bodies) {
+            match body {
+                Some(Held::Body(body)) => *handle = Some(body.get().place.handle()?),
+                Some(Held::Soft(body)) => *soft = Some(body.get().place.handle()?),
+                None => {}
+            }
         }
         let kind = def.kind;
         let handle = {
             let _at_work = world.get().at_work();
             match rule {
+                Some(_) if softs != [None; 2] => {
+                    let message =
+                        "a custom joint ties rigid bodies: a point of a deformable one has no pose";
+                    return Err(PyValueError::new_err(message));
+                }
                 Some(rule) => core.add_custom_joint(def, rule),
-                None => core.add_joint(def),
+                None => core.add_soft_joint(def, softs),
             }
         }
         .map_err(|error| joint_error(&kind, error))?;
@@ -225,8 +281,8 @@ impl Joint {
     fn _make(
         &self,
         kind: &str,
-        body_a: Option<Py<Body>>,
-        body_b: Option<Py<Body>>,
+        body_a: Option<Held>,
+        body_b: Option<Held>,
         parameters: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<()> {
         let blank = blank(kind)
@@ -313,13 +369,13 @@ impl Joint {
 
     /// A; None: the world.
     #[getter]
-    fn body_a(&self, py: Python<'_>) -> PyResult<Option<Py<Body>>> {
+    fn body_a(&self, py: Python<'_>) -> PyResult<Option<Held>> {
         self.body(py, 0)
     }
 
     /// B; None: the world.
     #[getter]
-    fn body_b(&self, py: Python<'_>) -> PyResult<Option<Py<Body>>> {
+    fn body_b(&self, py: Python<'_>) -> PyResult<Option<Held>> {
         self.body(py, 1)
     }
 
@@ -361,7 +417,7 @@ impl Joint {
         };
         let name = name.map_or_else(String::new, |name| format!(" {name:?}"));
         let side = |side| match own.body(py, side)? {
-            Some(body) => Ok::<_, PyErr>(body.bind(py).repr()?.to_string()),
+            Some(body) => body.repr(py),
             None => Ok("the world".to_owned()),
         };
         Ok(format!("<{class}{name} of {} and {}>", side(0)?, side(1)?))
@@ -376,6 +432,9 @@ impl Joint {
         }
         visit.call(self.rule.get())?;
         let Ok(draft) = self.draft.try_lock() else { return Ok(()) };
-        draft.bodies.iter().flatten().try_for_each(|body| visit.call(body))
+        draft.bodies.iter().flatten().try_for_each(|body| match body {
+            Held::Body(body) => visit.call(body),
+            Held::Soft(body) => visit.call(body),
+        })
     }
 }

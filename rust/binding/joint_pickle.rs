@@ -5,9 +5,8 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyType};
 
-use crate::body::Body;
 use crate::custom_joint::{Rule, RuleParts};
-use crate::joint::{Draft, Joint};
+use crate::joint::{Draft, Held, Joint};
 
 #[pymethods]
 impl Joint {
@@ -53,8 +52,7 @@ impl Joint {
 }
 
 /// What a pickle holds of a draft.
-type Drafted<'py> =
-    (String, Option<Py<Body>>, Option<Py<Body>>, Option<RuleParts>, Bound<'py, PyDict>);
+type Drafted<'py> = (String, Option<Held>, Option<Held>, Option<RuleParts>, Bound<'py, PyDict>);
 
 /// The classes of joints, by kind.
 pub struct Classes<'py>(Bound<'py, PyAny>);

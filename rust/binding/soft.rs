@@ -49,6 +49,14 @@ fn tensors<'py>(py: Python<'py>, rows: &[[Real; 3]]) -> PyResult<Bound<'py, PyAr
     PyArray1::from_vec(py, rows.as_flattened().to_vec()).reshape([rows.len(), 3])
 }
 
+impl World {
+    /// The object of a deformable body.
+    pub fn soft_body(&self, py: Python<'_>, handle: SoftHandle) -> Option<Py<SoftBody>> {
+        let is = |body: &&Py<SoftBody>| body.get().place.known() == Some(handle);
+        self.objects().softs.iter().find(is).map(|body| body.clone_ref(py))
+    }
+}
+
 impl SoftBody {
     pub fn remove_from(&self, world: &Bound<'_, World>) -> PyResult<()> {
         self.place.check_world(world)?;
@@ -58,9 +66,12 @@ impl SoftBody {
         let index = core.soft_handles().iter().position(|other| *other == handle);
         core.remove_soft_body(handle).map_err(to_py)?;
         self.place.leave();
-        let gone = index.map(|index| own.objects().softs.swap_remove(index));
+        let mut objects = own.objects();
+        let gone = index.map(|index| objects.softs.swap_remove(index));
+        let joints = objects.keep_joints(core.joint_handles());
+        drop(objects);
         drop(core);
-        drop(gone);
+        drop((gone, joints));
         Ok(())
     }
 

@@ -397,3 +397,30 @@ def test_it_is_drawn_on_axes() -> None:
     assert len(ax.collections) == 2
     low, high = ax.get_ylim()
     assert low < body.positions[:, 1].min() < body.positions[:, 1].max() < high
+
+
+def test_joints_hold_its_points() -> None:
+    world = cb.World(gravity=(0, -9.81))
+    body = jelly(world, damping_ratio=1.0, damping_frequency=5.0)
+    top = body.positions[:, 1].max()
+    spring = world.add_joint(
+        cb.DistanceJoint(None, body, points=[(0, top + 1), (0, top)], stiffness=1e4, damping=2e3)
+    )
+    assert (spring.body_a, spring.body_b) == (None, body)
+    assert "the world and <SoftBody" in repr(spring)
+    np.testing.assert_allclose(spring.points[1], (0, top), atol=1e-12)
+    assert pickle.loads(pickle.dumps(world)).joints[0].body_b is not None  # noqa: S301 — our own
+    world.step(DT, 60 * 20)
+    assert spring.reaction_force.y == pytest.approx(body.mass * 9.81, rel=1e-3)
+    assert spring.points[1].y < top
+    rod = cb.RevoluteJoint(body, jelly(world, position=(9, 9)), point=(9, 9))
+    with pytest.raises(ValueError, match="from the deformable body"):
+        world.add_joint(rod)
+    with pytest.raises(ValueError, match="a point does not turn"):
+        world.add_joint(cb.WeldJoint(None, body, point=body.positions[0]))
+    other = jelly(cb.World())
+    with pytest.raises(cb.StaleHandleError, match="another world"):
+        world.add_joint(cb.RevoluteJoint(None, other))
+    body.remove()
+    assert spring.removed
+    assert not world.joints

@@ -22,7 +22,7 @@ const KINDS: [Kind; 3] = [
 fn thrown(world: &mut World) -> SoftHandle {
     let (velocity, angular_velocity) = (vec2(0.5, 0.2), 2.0);
     let def = SoftDef { velocity, angular_velocity, ..block(material(1e5, 0.1)) };
-    world.add_soft_body(def).unwrap()
+    world.add_soft_body(def).expect("it is allowed")
 }
 
 /// Where a pin is, or where the ends of what has a length are.
@@ -34,7 +34,7 @@ fn anchored(name: &str, def: JointDef, pin: Vec2, ends: [Vec2; 2]) -> JointDef {
 fn run(world: &mut World, count: u32) -> Real {
     let mut gap: Real = 0.0;
     for k in 0..count {
-        world.step(STEP).unwrap();
+        world.step(STEP).expect("it is allowed");
         if k > count / 10 {
             gap = gap.max(world.joint_gap());
         }
@@ -108,25 +108,25 @@ fn wheel(world: &mut World, at: Vec2, speed: Real) -> (SoftHandle, BodyHandle, B
     };
     let outline: Vec<Vec2> = ring(0.5, 32).collect();
     let hole: Vec<Vec2> = ring(0.2, 16).collect();
-    let mesh = Mesh::polygon(&outline, &[hole], 0.12).unwrap();
+    let mesh = Mesh::polygon(&outline, &[hole], 0.12).expect("it is allowed");
     let soft = world
         .add_soft_body(SoftDef { position: at, ..SoftDef::new(mesh, material(2e6, 0.1)) })
-        .unwrap();
-    let mut hub = BodyDef::new(Shape::circle(0.2).unwrap());
+        .expect("it is allowed");
+    let mut hub = BodyDef::new(Shape::circle(0.2).expect("it is allowed"));
     hub.density = 500.0;
-    let hub = world.add_body(BodyDef { position: at, ..hub }).unwrap();
+    let hub = world.add_body(BodyDef { position: at, ..hub }).expect("it is allowed");
     for spoke in ring(0.2, 8) {
         let def = JointDef::revolute(hub, None).at(at + spoke);
-        world.add_soft_joint(def, [None, Some(soft)]).unwrap();
+        world.add_soft_joint(def, [None, Some(soft)]).expect("it is allowed");
     }
-    let mut load = BodyDef::new(Shape::rectangle(0.3, 0.3).unwrap());
+    let mut load = BodyDef::new(Shape::rectangle(0.3, 0.3).expect("it is allowed"));
     load.density = 2000.0;
     load.filter.mask = 0;
     load.angular_damping = 0.0;
-    let load = world.add_body(BodyDef { position: at, ..load }).unwrap();
+    let load = world.add_body(BodyDef { position: at, ..load }).expect("it is allowed");
     let motor = Some(Motor { speed, max: Some(400.0) });
     let kind = JointKind::Revolute { angle: None, travel: Travel { motor, ..Travel::default() } };
-    world.add_joint(JointDef::new(load, hub, kind).at(at)).unwrap();
+    world.add_joint(JointDef::new(load, hub, kind).at(at)).expect("it is allowed");
     (soft, hub, load)
 }
 
@@ -208,10 +208,10 @@ fn a_grab_draws_a_point_and_lets_go() {
 fn hung() -> (World, SoftHandle, JointHandle) {
     let mut world = with_floor();
     let def = SoftDef { position: vec2(0.0, 2.0), ..block(material(1e5, 0.1)) };
-    let soft = world.add_soft_body(def).unwrap();
+    let soft = world.add_soft_body(def).expect("it is allowed");
     let def = JointDef::revolute(None, None).at(vec2(0.5, 2.5));
-    let joint = world.add_soft_joint(def, [None, Some(soft)]).unwrap();
-    world.steps(STEP, 30).unwrap();
+    let joint = world.add_soft_joint(def, [None, Some(soft)]).expect("it is allowed");
+    world.steps(STEP, 30).expect("it is allowed");
     (world, soft, joint)
 }
 

@@ -214,39 +214,15 @@ fn push(group: &mut Group, matters: &mut dyn Matters, point: &Point) {
 impl Scratch {
     /// Numbers the nodes that are touched, and finds A⁻¹ among them.
     fn gather(&mut self, matters: &mut dyn Matters) {
-        let Self { points, ties, rows, nodes, first, velocities, responses, .. } = self;
+        let Self { nodes, first, .. } = self;
         nodes.clear();
         first.clear();
         let count = matters.count();
         for k in 0..count {
-            let start = nodes.len();
-            first.push(start);
-            for side in points.iter().flat_map(|point| &point.sides) {
-                if let Side::Nodes(piece, pair, weights) = side
-                    && *piece as usize == k
-                {
-                    nodes.extend(
-                        pair.iter().zip(weights).filter(|(_, w)| **w != 0.0).map(|(n, _)| *n),
-                    );
-                }
-            }
-            for end in ties.iter().flat_map(|tie| &tie.ends) {
-                if let End::Point(piece, node) = *end
-                    && piece as usize == k
-                {
-                    nodes.push(node);
-                }
-            }
-            nodes[start..].sort_unstable();
-            let mut kept = start;
-            for at in start..nodes.len() {
-                if at == start || nodes[at] != nodes[kept - 1] {
-                    nodes[kept] = nodes[at];
-                    kept += 1;
-                }
-            }
-            nodes.truncate(kept);
+            self.first.push(self.nodes.len());
+            self.touched_of(k as u32);
         }
+        let Self { nodes, first, velocities, responses, .. } = self;
         first.push(nodes.len());
         velocities.clear();
         velocities.resize(nodes.len(), Vec2::zeros());
@@ -254,15 +230,52 @@ impl Scratch {
         for k in 0..count {
             matters.piece(k).respond(&nodes[first[k]..first[k + 1]], &mut responses[k]);
         }
+        self.place_rows();
+    }
+
+    /// Adds the nodes of a piece that are touched, each once.
+    fn touched_of(&mut self, k: u32) {
+        let Self { points, ties, nodes, .. } = self;
+        let start = nodes.len();
+        for side in points.iter().flat_map(|point| &point.sides) {
+            if let Side::Nodes(piece, pair, weights) = side
+                && *piece == k
+            {
+                nodes.extend(pair.iter().zip(weights).filter(|(_, w)| **w != 0.0).map(|(n, _)| *n));
+            }
+        }
+        for end in ties.iter().flat_map(|tie| &tie.ends) {
+            if let End::Point(piece, node) = *end
+                && piece == k
+            {
+                nodes.push(node);
+            }
+        }
+        nodes[start..].sort_unstable();
+        let mut kept = start;
+        for at in start..nodes.len() {
+            if at == start || nodes[at] != nodes[kept - 1] {
+                nodes[kept] = nodes[at];
+                kept += 1;
+            }
+        }
+        nodes.truncate(kept);
+    }
+
+    /// Finds the places of what rows touch among the touched nodes.
+    fn place_rows(&mut self) {
+        let Self { points, ties, rows, nodes, first, .. } = self;
+        let place = |piece: u32, node: u32| {
+            let own = first[piece as usize]..first[piece as usize + 1];
+            (own.start + nodes[own].binary_search(&node).unwrap_or(0)) as u32
+        };
         rows.clear();
         for point in points {
             let mut row = Row::default();
             for (s, (side, sign)) in point.sides.iter().zip([-1.0, 1.0]).enumerate() {
                 let Side::Nodes(piece, pair, weights) = side else { continue };
-                let own = first[*piece as usize]..first[*piece as usize + 1];
                 for (n, (node, weight)) in pair.iter().zip(weights).enumerate() {
-                    let at = nodes[own.clone()].binary_search(node).unwrap_or(0);
-                    row.places[2 * s + n] = (own.start + at) as u32;
+                    row.places[2 * s + n] = place(*piece, *node);
                     row.weights[2 * s + n] = sign * weight;
                 }
             }
@@ -270,10 +283,9 @@ impl Scratch {
         }
         for tie in ties {
             for (end, touched) in tie.ends.iter().zip(&mut tie.touched) {
-                let End::Point(piece, node) = *end else { continue };
-                let own = first[piece as usize]..first[piece as usize + 1];
-                let at = nodes[own.clone()].binary_search(&node).unwrap_or(0);
-                *touched = (own.start + at) as u32;
+                if let End::Point(piece, node) = *end {
+                    *touched = place(piece, node);
+                }
             }
         }
     }

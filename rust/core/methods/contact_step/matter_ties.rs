@@ -330,8 +330,8 @@ impl Scratch {
                 self.apply_lever(group, &lever, change);
             });
             let tie = &self.ties[t];
-            for k in 0..tie.middle.count {
-                largest = largest.max(((tie.rows[k].impulse - old[k]) * tie.response[k]).abs());
+            for ((row, old), response) in tie.rows.iter().zip(old).zip(tie.response) {
+                largest = largest.max(((row.impulse - old) * response).abs());
             }
         }
         largest
@@ -372,8 +372,8 @@ impl Scratch {
                 row.impulse = row.impulse.clamp(row.bounds[0], row.bounds[1]);
             }
             tie.within_disc();
-            for k in 0..tie.middle.count {
-                let change = self.ties[t].rows[k].impulse - from[k];
+            for (k, from) in from.into_iter().enumerate().take(self.ties[t].middle.count) {
+                let change = self.ties[t].rows[k].impulse - from;
                 if change != 0.0 {
                     let lever = self.lever_of_row(t, k);
                     self.apply_lever(group, &lever, change);
@@ -418,13 +418,6 @@ impl Scratch {
                 let turn = cross(farther, -tie.on_node(1 - side));
                 velocity.twist.angular += velocity.inverse_inertia * turn * part;
             }
-        }
-    }
-
-    /// Weakens what joints do.
-    pub(super) fn weaken_ties(&mut self, part: Real) {
-        for row in self.ties.iter_mut().flat_map(|tie| &mut tie.rows) {
-            row.impulse *= part;
         }
     }
 
@@ -524,8 +517,8 @@ impl MatterTie {
                 row.wanted = curve - self.drifted[k] * back;
             }
             Action::Hold => {
-                row.wanted =
-                    curve - bend(&self.ends, (now, before), group, h) - CLOSED * start.position / h
+                let bend = bend(&self.ends, (now, before), group, h);
+                row.wanted = curve - bend - CLOSED * start.position / h;
             }
             Action::Drive(speed) => row.wanted = speed,
             Action::Limit => {

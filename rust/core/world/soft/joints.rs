@@ -18,20 +18,18 @@ use crate::world::joints::{centers_of, index_of, law_of, make, row_is_turn, rows
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub struct SoftJoint {
     pub joint: JointHandle,
-    pub ends: [Option<(SoftHandle, Spot)>; 2],
+    pub ends: Ends,
 }
 
 /// What a definition asks of deformable bodies: on which sides of which; the spot, if it is known.
 type Asked = [Option<(SoftHandle, Option<Spot>)>; 2];
 
+/// What it holds of them.
+type Ends = [Option<(SoftHandle, Spot)>; 2];
+
 impl Softs {
     /// Makes a joint.
-    fn joint(
-        &self,
-        bodies: &Bodies,
-        mut def: JointDef,
-        asked: &Asked,
-    ) -> Result<(Joint, [Option<(SoftHandle, Spot)>; 2])> {
+    fn joint(&self, bodies: &Bodies, mut def: JointDef, asked: &Asked) -> Result<(Joint, Ends)> {
         def.validated()?;
         let (mut ends, mut matter) = ([None; 2], [None; 2]);
         for side in 0..2 {
