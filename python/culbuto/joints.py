@@ -142,12 +142,8 @@ class Joint(_Joint):
     user's own. A joint that was removed raises `StaleHandleError`.
     """
 
-    anchor_a = _Place(
-        "Where it holds A, in A's frame (m); of a deformable one, in the world."
-    )
-    anchor_b = _Place(
-        "Where it holds B, in B's frame (m); of a deformable one, in the world."
-    )
+    anchor_a = _Place("Where it holds A, in A's frame (m); of a deformable one, in the world.")
+    anchor_b = _Place("Where it holds B, in B's frame (m); of a deformable one, in the world.")
     points = _Pair("Where it holds A and B, in the world (m).")
     collide_connected = _Flag("Whether A and B can touch each other.")
     breaking_force = _Maybe("Force above which it breaks (N); None: never.")
