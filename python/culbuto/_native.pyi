@@ -56,6 +56,7 @@ __all__ = [
     "Joints",
     "MassProperties",
     "Nearest",
+    "NearestSoft",
     "Oscillating",
     "PairOfMaterials",
     "Polygon",
@@ -72,6 +73,9 @@ __all__ = [
     "SimulationError",
     "Snapshot",
     "SoftBody",
+    "SoftContact",
+    "SoftEvents",
+    "SoftRayHit",
     "SpringMotion",
     "StaleHandleError",
     "State",
@@ -150,6 +154,18 @@ class _Own(TypedDict, total=False):
     """It stops only what comes from the side that this points to, in the body's frame."""
 
 @type_check_only
+class _SeenSofts(TypedDict, total=False):
+    """Which deformable bodies a query sees; all, if nothing is given."""
+
+    mask: int
+    """Bits of the categories that are seen."""
+    category: int
+    """Bits of its own categories: it sees only bodies that have one of them in their masks."""
+    group: int
+    """Bodies of this group are all seen if it is above 0, and none if it is below."""
+    exclude: Iterable[SoftBody]
+    """Bodies that are not seen."""
+
 class _Seen(TypedDict, total=False):
     """Which shapes a query sees; all but sensors, if nothing is given."""
 
@@ -1216,6 +1232,80 @@ class Fluid:
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
 
 @final
+class SoftContact:
+    """A deformable body and what it touches, began or ended to touch, or hit."""
+
+    @property
+    def time(self) -> float:
+        """World time at the end of the step (s)."""
+    @property
+    def body(self) -> SoftBody:
+        """The deformable body."""
+    @property
+    def other(self) -> Body | SoftBody:
+        """What it touches: a body or a deformable one."""
+    @property
+    def part(self) -> int | None:
+        """Which shape of a body, counted from 0; None of a deformable one."""
+    @property
+    def point(self) -> Vec2:
+        """Where most of the load is, or where they are nearest (m)."""
+    @property
+    def normal(self) -> Vec2:
+        """Unit vector from the deformable body to the other there."""
+    @property
+    def approach_speed(self) -> float:
+        """How fast they came together (m/s). Of hits; 0 else."""
+    @property
+    def impulse(self) -> float:
+        """Along the normals over the step (N·s)."""
+
+@final
+class SoftEvents:
+    """What happened to deformable bodies during the last call that moved the world on."""
+
+    @property
+    def begin(self) -> list[SoftContact]:
+        """Pairs that began to touch."""
+    @property
+    def end(self) -> list[SoftContact]:
+        """Pairs that no longer touch."""
+    @property
+    def hit(self) -> list[SoftContact]:
+        """Pairs that began to touch faster than the forces of a substep make them."""
+
+@final
+class SoftRayHit:
+    """Where a ray hits a deformable body."""
+
+    @property
+    def body(self) -> SoftBody:
+        """The body that is hit."""
+    @property
+    def point(self) -> Vec2:
+        """Point of its border (m); the start of the ray where that is inside."""
+    @property
+    def normal(self) -> Vec2:
+        """Its outward unit normal there."""
+    @property
+    def fraction(self) -> float:
+        """Part of the way up to the hit, 0 to 1."""
+
+@final
+class NearestSoft:
+    """The deformable body that is nearest to a point."""
+
+    @property
+    def body(self) -> SoftBody:
+        """The body."""
+    @property
+    def point(self) -> Vec2:
+        """Its nearest point (m): the one that was asked for, if the body holds it."""
+    @property
+    def distance(self) -> float:
+        """How far that is (m), 0 if the body holds the point."""
+
+@final
 class SoftBody:
     """A deformable body. Made by `World.add_soft_body`.
 
@@ -1290,10 +1380,29 @@ class SoftBody:
         """Difference of the principal strains beyond which it stays bent; None: never."""
     @property
     def friction(self) -> tuple[float, float]:
-        """Static and kinetic friction."""
+        """Static and kinetic friction. May be set, to one number for both."""
+    @friction.setter
+    def friction(self, friction: _Friction, /) -> None: ...
     @property
     def restitution(self) -> float:
-        """Speed after over speed before a collision."""
+        """Speed after over speed before a collision. May be set."""
+    @restitution.setter
+    def restitution(self, restitution: float, /) -> None: ...
+    @property
+    def category(self) -> int:
+        """Bits of the categories to which it belongs. May be set."""
+    @category.setter
+    def category(self, bits: int, /) -> None: ...
+    @property
+    def mask(self) -> int:
+        """Bits of the categories that it touches. May be set."""
+    @mask.setter
+    def mask(self, bits: int, /) -> None: ...
+    @property
+    def group(self) -> int:
+        """Its group, 0 for none: those of one always touch above 0, never below. May be set."""
+    @group.setter
+    def group(self, group: int, /) -> None: ...
     @property
     def radius(self) -> float:
         """By how much its border is thicker than its nodes say (m)."""
@@ -2352,6 +2461,29 @@ class World:
     @property
     def joints(self) -> Joints:
         """The joints of now and of later: a view."""
+    @property
+    def soft_contacts(self) -> list[SoftContact]:
+        """What touches deformable bodies after the last step."""
+    @property
+    def soft_events(self) -> SoftEvents:
+        """What began and ended to touch deformable bodies, and what hit them, in the last call."""
+    def soft_bodies_at(self, point: _Vec2Arg, **seen: Unpack[_SeenSofts]) -> list[SoftBody]:
+        """The deformable bodies that hold a point."""
+    def soft_bodies_in(
+        self, lower: _Vec2Arg, upper: _Vec2Arg, **seen: Unpack[_SeenSofts]
+    ) -> list[SoftBody]:
+        """The deformable bodies that share a point with the box between two corners."""
+    def cast_ray_soft(
+        self, start: _Vec2Arg, end: _Vec2Arg, **seen: Unpack[_SeenSofts]
+    ) -> SoftRayHit | None:
+        """The first deformable body on the way from `start` to `end`; None if it is free.
+
+        A ray that starts inside one hits it at fraction 0.
+        """
+    def nearest_soft(
+        self, point: _Vec2Arg, max_distance: float = ..., **seen: Unpack[_SeenSofts]
+    ) -> NearestSoft | None:
+        """The deformable body that is nearest; None if none is within `max_distance` (m)."""
     def remove(self, part: Body | Field | Fluid | Schedule | SoftBody | _Joint) -> None:
         """Removes a body (with its joints and schedules), or any other part."""
     def find(self, name: str) -> Body | None:

@@ -14,7 +14,7 @@ from culbuto._native import Body
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from culbuto._native import World
+    from culbuto._native import SoftBody, World
 
 Points = NDArray[np.float64]
 
@@ -96,7 +96,7 @@ def _spiral(center: Points, size: float) -> Points:
     return _circle(center, np.linspace(0.5, 2.2, 61) * size, 2.5, 60)
 
 
-def _center(body: joints.Part | None, otherwise: Points) -> Points:
+def _center(body: Body | SoftBody | None, otherwise: Points) -> Points:
     """Of mass, of a body; the world and a point have none."""
     return np.array(body.center_of_mass) if isinstance(body, Body) else otherwise
 

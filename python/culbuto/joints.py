@@ -49,7 +49,7 @@ if TYPE_CHECKING:
 
     from culbuto._native import SoftBody
 
-    Part: TypeAlias = Body | SoftBody
+    _Part: TypeAlias = Body | SoftBody
     _Vector: TypeAlias = Vec2 | Sequence[float] | NDArray[Any]
     _Points: TypeAlias = Sequence[_Vector] | NDArray[Any]
 
@@ -237,8 +237,8 @@ class DistanceJoint(_Sprung):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         length: float | None = None,
         hertz: float | None = 0.0,
@@ -265,8 +265,8 @@ class RopeJoint(Joint):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         max_length: float,
         **others: Unpack[_Common],
@@ -287,8 +287,8 @@ class RevoluteJoint(_Sprung, _Turning):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         limits: tuple[float, float] | None = None,
         motor_speed: float | None = None,
@@ -321,8 +321,8 @@ class PrismaticJoint(_Sprung, _Sliding):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         axis: _Vector | None = None,
         world_axis: _Vector | None = None,
@@ -355,8 +355,8 @@ class WeldJoint(_TwiceSprung, _Turning):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         reference_angle: float | None = None,
         **others: Unpack[_TwoSprings],
@@ -376,8 +376,8 @@ class WheelJoint(_Sprung, _Sliding):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         axis: _Vector | None = None,
         world_axis: _Vector | None = None,
@@ -408,7 +408,7 @@ class GrabJoint(_Sprung):
 
     def __init__(
         self,
-        body: Part,
+        body: _Part,
         target: _Vector,
         *,
         anchor: _Vector | None = None,
@@ -435,8 +435,8 @@ class MotorJoint(_TwiceSprung, _Turning):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         linear_offset: _Vector = (0.0, 0.0),
         angular_offset: float | None = None,
@@ -464,8 +464,8 @@ class GearJoint(Joint):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         ratio: float = 1.0,
         phase: float | None = None,
@@ -483,8 +483,8 @@ class PulleyJoint(Joint):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         over: _Points,
         ratio: float = 1.0,
@@ -511,8 +511,8 @@ class RackJoint(_Sliding):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         radius: float,
         axis: _Vector | None = None,
@@ -540,8 +540,8 @@ class RatchetJoint(_Turning):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         step: float,
         phase: float = 0.0,
@@ -559,8 +559,8 @@ class FrictionJoint(_Turning):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         max_force: float,
         max_torque: float,
@@ -578,8 +578,8 @@ class AngleSpringJoint(_Sprung, _Turning):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         *,
         hertz: float | None = None,
         damping_ratio: float = 0.0,
@@ -627,8 +627,8 @@ class CustomJoint(Joint):
 
     def __init__(
         self,
-        body_a: Part | None,
-        body_b: Part | None,
+        body_a: _Part | None,
+        body_b: _Part | None,
         constraint: _Constraint,
         *,
         rows: int = 1,

@@ -41,6 +41,7 @@ mod shape;
 mod shapes;
 mod snapshot;
 mod soft;
+mod soft_found;
 mod stepper;
 mod stepping;
 mod surface;
@@ -103,6 +104,8 @@ mod culbuto_native {
     use crate::snapshot::Snapshot;
     #[pymodule_export]
     use crate::soft::SoftBody;
+    #[pymodule_export]
+    use crate::soft_found::{NearestSoft, SoftContact, SoftEvents, SoftRayHit};
     #[pymodule_export]
     use crate::stepper::{Frame, Stepper};
     #[pymodule_export]

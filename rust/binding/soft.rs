@@ -1,6 +1,7 @@
 //! Deformable bodies.
 
 use culbuto::World as Core;
+use culbuto::body::{Filter, Surface};
 use culbuto::math::{Real, Vec2 as CoreVec2};
 use culbuto::soft::{Gas, SoftBody as Kind, SoftHandle};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
@@ -9,11 +10,11 @@ use pyo3::gc::{PyTraverseError, PyVisit};
 use pyo3::prelude::*;
 
 use crate::add_soft::plane_name;
-use crate::convert::{self, Vec2Arg};
+use crate::convert::{self, Vec2Arg, count};
 use crate::error::to_py;
 use crate::parts::{Place, Reduced, reduced};
 use crate::shape::rows;
-use crate::surface::{Coefficients, coefficients};
+use crate::surface::{self, Coefficients, FrictionArg, coefficients};
 use crate::vec2::Vec2;
 use crate::world::World;
 
@@ -88,6 +89,22 @@ impl SoftBody {
         let mut core = self.place.world.get().core(py)?;
         let handle = self.place.handle()?;
         write(&mut core, handle).map_err(to_py)
+    }
+
+    fn set_surface(&self, py: Python<'_>, set: impl FnOnce(&mut Surface)) -> PyResult<()> {
+        self.write(py, |core, body| {
+            let mut surface = core.soft_body(body)?.def().surface.clone();
+            set(&mut surface);
+            core.set_soft_surface(body, surface)
+        })
+    }
+
+    fn set_filter(&self, py: Python<'_>, set: impl FnOnce(&mut Filter)) -> PyResult<()> {
+        self.write(py, |core, body| {
+            let mut filter = core.soft_body(body)?.def().filter;
+            set(&mut filter);
+            core.set_soft_filter(body, filter)
+        })
     }
 
     /// A column of vectors, one for each node.
@@ -263,16 +280,62 @@ impl SoftBody {
         self.read(py, |body| body.def().material.yield_strain)
     }
 
-    /// Static and kinetic friction.
+    /// Static and kinetic friction. May be set, to one number for both.
     #[getter]
     fn friction(&self, py: Python<'_>) -> PyResult<Coefficients> {
         self.read(py, |body| coefficients(body.def().surface.friction))
     }
 
-    /// Coefficient of restitution.
+    #[setter]
+    fn set_friction(&self, py: Python<'_>, friction: FrictionArg) -> PyResult<()> {
+        self.set_surface(py, |surface| surface.friction = friction.0)
+    }
+
+    /// Coefficient of restitution. May be set.
     #[getter]
     fn restitution(&self, py: Python<'_>) -> PyResult<Real> {
         self.read(py, |body| body.def().surface.restitution)
+    }
+
+    #[setter]
+    fn set_restitution(&self, py: Python<'_>, restitution: Real) -> PyResult<()> {
+        self.set_surface(py, |surface| surface.restitution = restitution)
+    }
+
+    /// Bits of the categories to which it belongs. May be set.
+    #[getter]
+    fn category(&self, py: Python<'_>) -> PyResult<u32> {
+        self.read(py, |body| body.def().filter.category)
+    }
+
+    #[setter]
+    fn set_category(&self, py: Python<'_>, bits: i64) -> PyResult<()> {
+        let bits = count("category", bits)?;
+        self.set_filter(py, |filter| filter.category = bits)
+    }
+
+    /// Bits of the categories that it touches. May be set.
+    #[getter]
+    fn mask(&self, py: Python<'_>) -> PyResult<u32> {
+        self.read(py, |body| body.def().filter.mask)
+    }
+
+    #[setter]
+    fn set_mask(&self, py: Python<'_>, bits: i64) -> PyResult<()> {
+        let bits = count("mask", bits)?;
+        self.set_filter(py, |filter| filter.mask = bits)
+    }
+
+    /// Its group, 0 for none: those of one always touch if it is above 0, never if it is below. May be set.
+    #[getter]
+    fn group(&self, py: Python<'_>) -> PyResult<i32> {
+        self.read(py, |body| body.def().filter.group)
+    }
+
+    #[setter]
+    fn set_group(&self, py: Python<'_>, group: i64) -> PyResult<()> {
+        let group = surface::group(group)?;
+        self.set_filter(py, |filter| filter.group = group)
     }
 
     /// By how much its border is thicker than its nodes say (m).

@@ -424,3 +424,68 @@ def test_joints_hold_its_points() -> None:
     body.remove()
     assert spring.removed
     assert not world.joints
+
+
+def test_events_tell_what_touches_it() -> None:
+    world = with_floor()
+    body = jelly(world, position=(0, 1.52))
+    world.step(DT, 40)
+    events = world.soft_events
+    begun = events.begin[0]
+    assert (begun.body, begun.other, begun.part) == (body, world.bodies[0], 0)
+    assert events.hit[0].approach_speed == pytest.approx((2 * 9.81) ** 0.5, rel=0.05)
+    assert events.hit[0].normal == cb.Vec2(0, -1)
+    assert "SoftContact of <SoftBody" in repr(begun)
+    assert "begin" in repr(events)
+    world.step(DT, 600)
+    assert [contact.other for contact in world.soft_contacts] == [world.bodies[0]]
+    assert world.soft_contacts[0].impulse == pytest.approx(body.mass * 9.81 * DT, rel=1e-3)
+    other = jelly(world, position=(0, 2.5))
+    world.step(DT, 60)
+    assert {contact.other for contact in world.soft_contacts} == {world.bodies[0], other}
+    other.remove()
+    world.step(DT)
+    assert len(world.soft_contacts) == 1
+
+
+def test_queries_find_it() -> None:
+    world = cb.World(gravity=(0, 0))
+    a, b = (jelly(world, position=(x, 0), radius=0.0, category=c) for x, c in [(0, 1), (3, 2)])
+    assert world.soft_bodies_at((0.2, 0.1)) == [a]
+    assert world.soft_bodies_in((-1, -1), (4, 1)) == [a, b]
+    hit = world.cast_ray_soft((-2, 0), (6, 0))
+    assert hit is not None
+    assert (hit.body, hit.normal) == (a, cb.Vec2(-1, 0))
+    assert hit.fraction == pytest.approx(1.5 / 8)
+    assert (far := world.cast_ray_soft((-2, 0), (6, 0), exclude=[a])) is not None
+    assert far.body is b
+    assert (other := world.cast_ray_soft((-2, 0), (6, 0), mask=2)) is not None
+    assert other.body is b
+    near = world.nearest_soft((0, 0.8))
+    assert near is not None
+    assert near.body is a
+    assert near.distance == pytest.approx(0.3)
+    assert world.nearest_soft((0, 0.8), 0.2) is None
+    with pytest.raises(TypeError, match="allowed: mask, category, group, exclude"):
+        world.soft_bodies_at((0, 0), sensors=True)  # type: ignore[call-arg]
+    with pytest.raises(ValueError, match="lower corner"):
+        world.soft_bodies_in((1, 0), (0, 1))
+
+
+def test_what_it_is_like_to_touch_can_be_set() -> None:
+    world = with_floor()
+    body = jelly(world, position=(0, 0.52), velocity=(3, 0), friction=0.0)
+    world.step(DT, 60)
+    assert body.momentum.x == pytest.approx(3 * body.mass)
+    body.friction = 0.8
+    body.restitution = 0.1
+    assert (body.friction, body.restitution) == ((0.8, 0.8), 0.1)
+    world.step(DT, 60)
+    assert abs(body.momentum.x) < body.mass
+    with pytest.raises(ValueError, match="restitution"):
+        body.restitution = 2.0
+    body.mask = 0
+    body.category, body.group = 4, -1
+    assert (body.category, body.mask, body.group) == (4, 0, -1)
+    world.step(DT, 60)
+    assert body.center.y < -2

@@ -1,7 +1,9 @@
 //! Deformable bodies in a world: what they keep, how they touch, what is refused.
 
+mod events;
 mod joints;
 mod laws;
+mod queries;
 mod refusals;
 mod touch;
 

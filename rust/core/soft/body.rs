@@ -10,6 +10,7 @@ use super::tensor::{Tensor, scaled, sum};
 use super::triangle::{Triangle, cauchy, flowed, green};
 use super::{Moduli, SoftDef, Spot};
 use crate::arena::{Handle, Named};
+use crate::body::{Filter, Surface};
 use crate::error::{Error, Result, check};
 use crate::math::{Pose, Real, Rot, Vec2, cross, perp};
 
@@ -223,6 +224,14 @@ impl SoftBody {
         self.def.gas = gas;
         self.moving.linear = None;
         self.rebuild()
+    }
+
+    pub(crate) fn set_surface(&mut self, surface: Surface) {
+        self.def.surface = surface;
+    }
+
+    pub(crate) fn set_filter(&mut self, filter: Filter) {
+        self.def.filter = filter;
     }
 
     fn check_column(&self, what: &str, column: &[Vec2]) -> Result<()> {

@@ -115,6 +115,7 @@ impl Backup {
         remember(&mut self.joints, state);
         if plan.softs > 0 {
             self.softs.save(&state.softs);
+            state.softs.events.clear();
         }
         let breaks = |joint: &Joint| {
             joint.def.breaking_force.is_some() || joint.def.breaking_torque.is_some()
@@ -158,6 +159,7 @@ impl Backup {
             None => recall(&self.joints, state),
         }
         self.softs.restore(&mut state.softs, &mut state.joints);
+        state.softs.events.clear();
         // A call that moves the world adds and removes no fluid.
         if !state.fluids.list.values().is_empty() {
             state.fluids.clone_from(&self.fluids);

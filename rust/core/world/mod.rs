@@ -25,6 +25,7 @@ pub use plan::Plan;
 pub use queries::{Nearest, QueryFilter, RayHit, ShapeId, distance_between};
 pub use report::{StageTime, StepReport, Trajectory};
 pub use snapshot::Snapshot;
+pub use soft::{NearestSoft, SoftContact, SoftEvents, SoftFilter, SoftRayHit, Touched};
 pub use stepper::{Frame, Stepper};
 
 use std::sync::{Arc, OnceLock};

@@ -352,12 +352,13 @@ impl World {
             let time = self.time();
             return Err(Error::NotFinite { time, what: "position or velocity", body, hint });
         }
-        if plan.softs > 0
-            && let Some(body) = self.soft_bodies().iter().position(|body| !body.is_finite())
-        {
-            let (time, what) = (self.time(), "a node of the soft body");
-            let hint = "check forces, velocities and dt; the world is as before the call";
-            return Err(Error::NotFinite { time, what, body, hint });
+        if plan.softs > 0 {
+            if let Some(body) = self.soft_bodies().iter().position(|body| !body.is_finite()) {
+                let (time, what) = (self.time(), "a node of the soft body");
+                let hint = "check forces, velocities and dt; the world is as before the call";
+                return Err(Error::NotFinite { time, what, body, hint });
+            }
+            self.notice_softs();
         }
         if std::mem::take(&mut self.applied) {
             self.state.bodies.applied.fill(Wrench::ZERO);

@@ -262,6 +262,13 @@ impl Group {
         self.blocks.iter().zip(&self.links).map(work).sum()
     }
 
+    /// Velocity of a body before the forces and rows of the substep of length h (s).
+    #[must_use]
+    pub fn before(&self, slot: u32, h: Real) -> Twist {
+        let (free, kick) = (&self.free[slot as usize], self.places[slot as usize].kick(h));
+        Twist::new(free.linear - kick.linear, free.angular - kick.angular)
+    }
+
     /// Adds a contact, watched where it bounces or is swift.
     pub fn add_contact(&mut self, block: Block, mut link: Link) {
         if link.watched != Watched::No {

@@ -1,6 +1,7 @@
 //! Deformable bodies in the groups of the contact step.
 
-use super::touch::Borders;
+use super::events::{Other, Touch};
+use super::touch::{Borders, PIECE};
 use super::{Softs, follow, ties};
 use crate::arena::Arena;
 use crate::body::{Bodies, Friction};
@@ -44,6 +45,10 @@ pub struct SoftScratch {
     pub boxes: Vec<Aabb>,
     /// What joints tie: bodies by their places, deformable ones on from those.
     pub joined: Vec<[u32; 2]>,
+    /// What points did in the step.
+    pub touches: Vec<Touch>,
+    /// Where those of the group at work begin.
+    begun: usize,
     /// Of those, what does not touch.
     pub apart: Vec<[u32; 2]>,
     pub borders: Borders,
@@ -117,6 +122,9 @@ pub struct Members<'a> {
     /// What the last substep in this span kept.
     last: Vec<Grip>,
     first: bool,
+    gravity: Vec2,
+    /// What its points did in the step, and where those of the group begin.
+    touches: (usize, &'a mut Vec<Touch>),
 }
 
 impl World {
@@ -126,6 +134,7 @@ impl World {
         let softs = state.softs.bodies.values();
         let soft = &mut scratch.soft;
         soft.saved.clear();
+        soft.begun = soft.touches.len();
         soft.saved.extend(soft.members.iter().map(|k| softs[*k as usize].moving().clone()));
     }
 
@@ -133,6 +142,7 @@ impl World {
     pub(in crate::world) fn restore_members(&mut self) {
         let Self { state, scratch, .. } = self;
         let softs = state.softs.bodies.values_mut();
+        scratch.soft.touches.truncate(scratch.soft.begun);
         for (k, moving) in scratch.soft.members.iter().zip(&scratch.soft.saved) {
             softs[*k as usize].go_back(moving);
         }
@@ -161,7 +171,7 @@ pub(in crate::world) fn members<'a>(
     (joints, group, span): (&Arena<Joint>, &Group, Span),
     (gravity, soft): (Vec2, &'a mut SoftScratch),
 ) -> (Members<'a>, &'a mut Scratch) {
-    let SoftScratch { pairs, borders, members, grips, solve, .. } = soft;
+    let SoftScratch { pairs, borders, members, grips, solve, touches, .. } = soft;
     ties((softs, members), (bodies, joints), (group, span.h()), &mut solve.ties);
     let Softs { bodies: list, grips: before, substep, .. } = softs;
     let softs = list.values_mut();
@@ -181,6 +191,8 @@ pub(in crate::world) fn members<'a>(
         kept: grips,
         last: Vec::new(),
         first: true,
+        gravity,
+        touches: (touches.len(), touches),
     };
     (members, solve)
 }
@@ -215,12 +227,43 @@ impl Matters for Members<'_> {
         }
     }
 
-    fn keep(&mut self, _group: &Group, _h: Real, points: &[Point]) {
-        if self.first {
-            self.first = false;
-        }
+    fn keep(&mut self, group: &Group, h: Real, points: &[Point]) {
+        self.first = false;
+        self.note(group, h, points);
         self.last.clear();
         self.last.extend(points.iter().map(|point| point.grip));
+    }
+}
+
+impl Members<'_> {
+    /// A piece of matter as a body, and the acceleration (m/s²) that gravity gives it.
+    pub fn body_of(&self, k: u32) -> (&SoftBody, Vec2) {
+        let body = &self.softs[self.list[k as usize] as usize];
+        (body, self.gravity * body.def().gravity_scale)
+    }
+
+    /// Notes what the points of a substep did, pair by pair.
+    fn note(&mut self, group: &Group, h: Real, points: &[Point]) {
+        let (first, touches) = (self.touches.0, std::mem::take(self.touches.1));
+        let mut touches = touches;
+        touches[first..].iter_mut().for_each(Touch::open);
+        let begun = touches.len();
+        for point in points {
+            let [soft, _, number, _] = point.grip.key;
+            let other = if number & PIECE == 0 {
+                let entry = self.contacts.entry(ProxyId(number));
+                Other::Body(entry.collider.body, entry.collider.part)
+            } else {
+                Other::Soft(number & !PIECE)
+            };
+            let touch = Touch::new(((soft, other), point), self, (group, h));
+            // Points of a pair stand one after another.
+            match touches[begun..].last_mut().filter(|last| last.pair == touch.pair) {
+                Some(last) => last.join(&touch),
+                None => touches.push(touch),
+            }
+        }
+        *self.touches.1 = touches;
     }
 }
 

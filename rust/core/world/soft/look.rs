@@ -14,6 +14,7 @@ impl World {
     pub(in crate::world) fn look_around_softs(&mut self, dt: Real) -> bool {
         let Self { state, scratch, .. } = self;
         let mut called = Vec::new();
+        scratch.soft.touches.clear();
         scratch.soft.look_at_joints(state, &mut called);
         scratch.soft.look_around(state, dt, &mut called);
         called.sort_unstable();

@@ -1,16 +1,21 @@
 //! Deformable bodies of a world.
 
 mod advance;
+mod events;
 mod joints;
 mod look;
+mod queries;
 mod touch;
 
 pub(super) use advance::{SoftScratch, members, take_ends};
+pub use events::{SoftContact, SoftEvents, Touched};
 pub(super) use joints::{follow, keep, ties};
+pub use queries::{NearestSoft, SoftFilter, SoftRayHit};
 
 use serde::{Deserialize, Serialize};
 
 use crate::arena::Arena;
+use crate::body::{Filter, Surface};
 use crate::constraints::matter::Grip;
 use crate::error::Result;
 use crate::joint::Joint;
@@ -29,6 +34,11 @@ pub(super) struct Softs {
     pub grips: Vec<Grip>,
     /// Length (s) of the substep that their impulses are of.
     pub substep: f64,
+    /// What touches.
+    pub contacts: Vec<SoftContact>,
+    /// What happened during the last call.
+    #[serde(skip)]
+    pub events: SoftEvents,
 }
 
 impl Softs {
@@ -48,6 +58,7 @@ pub(super) struct SoftBackup {
     moving: Vec<Moving>,
     grips: Vec<Grip>,
     substep: f64,
+    contacts: Vec<SoftContact>,
 }
 
 impl SoftBackup {
@@ -56,6 +67,7 @@ impl SoftBackup {
         self.moving.extend(softs.bodies.values().iter().map(|body| body.moving().clone()));
         self.grips.clone_from(&softs.grips);
         self.substep = softs.substep;
+        self.contacts.clone_from(&softs.contacts);
     }
 
     pub fn restore(&self, softs: &mut Softs, joints: &mut Arena<Joint>) {
@@ -67,6 +79,7 @@ impl SoftBackup {
         }
         softs.grips.clone_from(&self.grips);
         softs.substep = self.substep;
+        softs.contacts.clone_from(&self.contacts);
         follow(softs, joints);
     }
 }
@@ -98,6 +111,7 @@ impl World {
 
     fn softs_changed(&mut self) {
         self.state.softs.grips.clear();
+        self.state.softs.events.clear();
         self.plan = None;
         self.wake_all();
     }
@@ -144,6 +158,29 @@ impl World {
     /// A body that is gone, another number of nodes, forces that are not finite.
     pub fn set_soft_forces(&mut self, body: SoftHandle, forces: &[Vec2]) -> Result<()> {
         self.change_soft(body, |body| body.set_forces(forces))
+    }
+
+    /// Sets what a deformable body is like to touch.
+    ///
+    /// # Errors
+    /// A body that is gone, coefficients that are not allowed.
+    pub fn set_soft_surface(&mut self, body: SoftHandle, surface: Surface) -> Result<()> {
+        surface.validated()?;
+        self.change_soft(body, |body| {
+            body.set_surface(surface);
+            Ok(())
+        })
+    }
+
+    /// Sets what a deformable body touches.
+    ///
+    /// # Errors
+    /// A body that is gone.
+    pub fn set_soft_filter(&mut self, body: SoftHandle, filter: Filter) -> Result<()> {
+        self.change_soft(body, |body| {
+            body.set_filter(filter);
+            Ok(())
+        })
     }
 
     /// Fixes a node of a deformable body where it is, or lets it go.

@@ -30,7 +30,7 @@ struct Border {
 }
 
 /// A number of a feature that is a piece of a border, not a node.
-const PIECE: u32 = 1 << 31;
+pub const PIECE: u32 = 1 << 31;
 
 /// A point nearer to a node than this part of its piece is at the node.
 const AT_NODE: Real = 1e-6;
