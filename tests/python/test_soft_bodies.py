@@ -279,15 +279,22 @@ def test_objects_go_through_pickles_and_come_back_with_restore() -> None:
     np.testing.assert_array_equal(other.soft_bodies[0].positions, soft.positions)
 
 
-def test_scene_files_refuse_it(tmp_path: Path) -> None:
+def test_scene_files_hold_it(tmp_path: Path) -> None:
     world = with_floor()
-    jelly(world)
+    body = jelly(world, name="jelly")
+    world.add_joint(cb.DistanceJoint(None, body, points=[(0, 3), body.positions[0]]))
+    world.step(DT, 20)
     path = tmp_path / "scene.json"
-    with pytest.raises(cb.SceneFileError, match="cannot hold a deformable body; a snapshot"):
-        world.save(path)
-    assert not path.exists()
-    with pytest.raises(cb.SceneFileError, match="soft_bodies"):
-        cb.SceneFile.from_world(world)
+    world.save(path)
+    other = cb.World.from_file(path)
+    (copy,) = other.soft_bodies
+    assert copy.name == "jelly"
+    np.testing.assert_array_equal(copy.positions, body.positions)
+    np.testing.assert_array_equal(copy.velocities, body.velocities)
+    assert other.joints[0].body_b is copy
+    world.step(DT, 5)
+    other.step(DT, 5)
+    np.testing.assert_allclose(copy.positions, body.positions, atol=1e-6)
 
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]

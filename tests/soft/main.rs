@@ -1,6 +1,7 @@
 //! Deformable bodies in a world: what they keep, how they touch, what is refused.
 
 mod events;
+mod files;
 mod joints;
 mod laws;
 mod queries;

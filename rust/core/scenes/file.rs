@@ -1,13 +1,14 @@
 //! Scene files: a world as readable JSON. `docs/scene-files.md` is the guide, `docs/scene.schema.json`
 //! the schema.
 //!
-//! What is to come (soft bodies, fluids) comes as further lists beside `bodies`, each empty by
+//! What is to come (fluids) comes as further lists beside `bodies`, as deformable bodies did, each empty by
 //! default. A file that does without them stays as it is, so the version stays 1; it changes only when
 //! something that stands in files today gets another meaning.
 
 mod body;
 mod from_world;
 mod joint;
+mod soft;
 mod text;
 mod to_world;
 
@@ -19,6 +20,7 @@ use serde::{Deserialize, Serialize};
 
 pub use body::{SceneBody, ScenePart};
 pub use joint::{SceneJoint, SceneJointState};
+pub use soft::{SceneSoft, SceneSoftState};
 
 use crate::body::{Friction, ImpactLaw, Mixing};
 use crate::error::{Error, Result};
@@ -82,6 +84,9 @@ pub struct SceneFile {
     /// The bodies, in body order.
     #[serde(default)]
     pub bodies: Vec<SceneBody>,
+    /// Deformable bodies, in their order.
+    #[serde(default)]
+    pub soft_bodies: Vec<SceneSoft>,
     /// What ties bodies together, in the order of the world's joints.
     #[serde(default)]
     pub joints: Vec<SceneJoint>,
@@ -247,6 +252,7 @@ impl Default for SceneFile {
             time_remainder: 0.0,
             materials: BTreeMap::new(),
             bodies: Vec::new(),
+            soft_bodies: Vec::new(),
             joints: Vec::new(),
             schedules: Vec::new(),
             fields: Vec::new(),

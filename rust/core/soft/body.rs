@@ -226,6 +226,31 @@ impl SoftBody {
         self.rebuild()
     }
 
+    /// How it has yielded: F_p⁻¹ at the points of integration; empty where it has not.
+    #[must_use]
+    pub fn flow(&self) -> &[[Real; 4]] {
+        &self.moving.flow
+    }
+
+    /// Sets that.
+    ///
+    /// # Errors
+    /// Another number of them, and what is not finite or has no area.
+    pub(crate) fn set_flow(&mut self, flow: &[[Real; 4]]) -> Result<()> {
+        let count = 3 * self.def.mesh.triangles.len();
+        if flow.len() != count {
+            let allowed = format!("{count}, three for each triangle");
+            return Err(Error::invalid("flow", flow.len(), allowed));
+        }
+        for [xx, xy, yx, yy] in flow {
+            check::positive("determinant of the flow", xx * yy - xy * yx)?;
+        }
+        self.moving.flow = flow.to_vec();
+        self.moving.linear = None;
+        self.apply_flow();
+        Ok(())
+    }
+
     pub(crate) fn set_surface(&mut self, surface: Surface) {
         self.def.surface = surface;
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{
     BodyLabel, Material, SceneBody, SceneField, SceneFile, SceneJoint, SceneOscillating,
-    SceneSchedule, SceneSettings, wrong,
+    SceneSchedule, SceneSettings, SceneSoft, soft, wrong,
 };
 use crate::body::{BodyHandle, Info};
 use crate::error::Result;
@@ -14,12 +14,13 @@ use crate::math::{Pose, Real, Vec2, Wrench};
 use crate::world::World;
 
 impl SceneFile {
-    /// The scene that begins where a world is: the world made from it goes on to the same bits. Name,
+    /// The scene that begins where a world is: the world made from it goes on to the same bits; with deformable bodies
+    /// to what their iterations leave, since their factors are made anew. Name,
     /// description and `run` are the defaults; the energy books (work, dissipation) are not in it.
     ///
     /// # Errors
     /// [`crate::Error::SceneFile`] for what a file cannot hold: a field that is the user's own code or
-    /// acts on a body that is gone, fluids, deformable bodies, and forces that wait for the next step only.
+    /// acts on a body that is gone, fluids, and forces that wait for the next step only.
     pub fn from_world(world: &World) -> Result<Self> {
         let bodies = world.bodies();
         if let Some(i) = bodies.applied.iter().position(|wrench| *wrench != Wrench::ZERO) {
@@ -30,10 +31,6 @@ impl SceneFile {
         if !world.fluids().list.values().is_empty() {
             let message = "a scene file cannot hold a fluid; a snapshot or a pickle can";
             return Err(wrong("fluids".to_owned(), message));
-        }
-        if !world.soft_bodies().is_empty() {
-            let message = "a scene file cannot hold a deformable body; a snapshot or a pickle can";
-            return Err(wrong("soft_bodies".to_owned(), message));
         }
         let settings = world.settings();
         let (time, time_remainder) = world.clock();
@@ -46,6 +43,7 @@ impl SceneFile {
             time_remainder,
             materials: materials(world),
             bodies: (0..bodies.len()).map(|i| body(world, i)).collect(),
+            soft_bodies: world.soft_bodies().iter().map(SceneSoft::from).collect(),
             joints: joints(world)?,
             schedules: world
                 .schedules()
@@ -67,7 +65,8 @@ fn materials(world: &World) -> BTreeMap<String, Material> {
         parts.chain([def.surface.material.as_ref()])
     });
     let named = |name: &String| (name.clone(), Material::default());
-    pairs.chain(bodies).flatten().map(named).collect()
+    let softs = world.soft_bodies().iter().map(|body| body.def().surface.material.as_ref());
+    pairs.chain(bodies).chain(softs).flatten().map(named).collect()
 }
 
 /// A body, by its frame if that gives the centre of mass back to the bit, else by its centre of mass.
@@ -113,7 +112,9 @@ fn joints(world: &World) -> Result<Vec<SceneJoint>> {
             let path = format!("joints[{i}].bodies[{side}]");
             *own = body.map(|body| label(world, body, &path)).transpose()?;
         }
-        Ok(SceneJoint::new(joint, labels))
+        let softs = world.soft_ends(world.joint_handles()[i])?;
+        let soft_labels = softs.map(|soft| soft.and_then(|soft| soft::label(world, soft)));
+        Ok(SceneJoint::new(joint, labels).holding(soft_labels))
     };
     world.joints().iter().enumerate().map(joint).collect()
 }

@@ -18,6 +18,9 @@ pub struct SceneJoint {
     pub name: Option<String>,
     /// A and B, by name or by place; null: the world.
     pub bodies: [Option<BodyLabel>; 2],
+    /// Deformable bodies in their place, by name or by place among those.
+    #[serde(default)]
+    pub soft_bodies: [Option<BodyLabel>; 2],
     /// Where it holds A and B (m).
     #[serde(default = "origins")]
     pub anchors: [Given; 2],
@@ -62,6 +65,7 @@ impl Default for SceneJoint {
         Self {
             name: None,
             bodies: [None, None],
+            soft_bodies: [None, None],
             anchors: origins(),
             joint: JointKind::Filter,
             collide_connected: false,
@@ -87,6 +91,7 @@ impl SceneJoint {
         Self {
             name,
             bodies,
+            soft_bodies: [None, None],
             anchors,
             joint: kind,
             collide_connected,
@@ -94,6 +99,16 @@ impl SceneJoint {
             breaking_torque,
             state: SceneJointState::of(joint),
         }
+    }
+
+    /// The same, holding deformable bodies: their points stand in the world.
+    pub(super) fn holding(mut self, soft_bodies: [Option<BodyLabel>; 2]) -> Self {
+        for (anchor, _) in
+            self.anchors.iter_mut().zip(&soft_bodies).filter(|(_, soft)| soft.is_some())
+        {
+            *anchor = Given::World(anchor.vector());
+        }
+        Self { soft_bodies, ..self }
     }
 
     /// The definition, between these bodies.
@@ -117,6 +132,7 @@ impl SceneJoint {
             "anchor_a" => format!("{path}.anchors[0]"),
             "anchor_b" => format!("{path}.anchors[1]"),
             "the pair of bodies" => format!("{path}.bodies"),
+            "the anchor" | "the anchors" => format!("{path}.anchors"),
             "breaking_force" | "breaking_torque" => format!("{path}.{what}"),
             _ => format!("{path}.joint.{kind}"),
         };

@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::{
-    SCENE_VERSION, SceneBody, SceneFile, SceneJoint, SceneOscillating, SceneSettings, wrong,
+    SCENE_VERSION, SceneBody, SceneFile, SceneJoint, SceneOscillating, SceneSettings, SceneSoft,
+    wrong,
 };
 use crate::error::{Error, Result};
 
@@ -75,6 +76,11 @@ pub fn to_json(scene: &SceneFile) -> String {
         leave_out(body, &usual, &[]);
         leave_out_within(body, &usual, &["locks", "filter"]);
         objects(body, "shapes").for_each(leave_out_of_shape);
+    }
+    let usual = object(&SceneSoft::default());
+    for soft in objects(&mut file, "soft_bodies") {
+        leave_out(soft, &usual, &[]);
+        leave_out_within(soft, &usual, &["material", "surface", "filter", "state"]);
     }
     let usual = object(&SceneJoint::default());
     for joint in objects(&mut file, "joints") {

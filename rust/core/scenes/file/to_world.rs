@@ -1,11 +1,12 @@
 //! From a scene file to a world.
 
 use super::{BodyLabel, Material, SceneBody, SceneField, SceneFile, SceneJoint};
-use super::{SCENE_VERSION, ScenePart, SceneSchedule, wrong};
+use super::{SCENE_VERSION, ScenePart, SceneSchedule, soft, wrong};
 use crate::body::{BodyDef, BodyHandle, Part, SurfaceOverride};
 use crate::error::{Error, Result, check};
 use crate::forces::{BuiltInField, ForceSchedule, Oscillating};
 use crate::math::{Real, Vec2, Wrench};
+use crate::soft::SoftHandle;
 use crate::world::World;
 
 impl SceneFile {
@@ -25,8 +26,11 @@ impl SceneFile {
         for (i, body) in self.bodies.iter().enumerate() {
             bodies.push(self.add_body(&mut world, i, body)?);
         }
+        let softs = self.soft_bodies.iter().enumerate();
+        let softs = softs.map(|(i, soft)| soft.add(&mut world, &format!("soft_bodies[{i}]")));
+        let softs = softs.collect::<Result<Vec<_>>>()?;
         for (i, joint) in self.joints.iter().enumerate() {
-            self.add_joint(&mut world, &bodies, (i, joint))?;
+            self.add_joint(&mut world, (&bodies, &softs), (i, joint))?;
         }
         for (i, schedule) in self.schedules.iter().enumerate() {
             let path = format!("schedules[{i}]");
@@ -90,7 +94,7 @@ impl SceneFile {
     fn add_joint(
         &self,
         world: &mut World,
-        bodies: &[BodyHandle],
+        (bodies, softs): (&[BodyHandle], &[SoftHandle]),
         (i, joint): (usize, &SceneJoint),
     ) -> Result<()> {
         let path = format!("joints[{i}]");
@@ -99,7 +103,15 @@ impl SceneFile {
             let find = |label| self.find(label, bodies, &format!("{path}.bodies[{side}]"));
             *body = label.as_ref().map(find).transpose()?;
         }
-        let made = world.add_joint(joint.def(pair)).map_err(|error| joint.wrong(&path, &error))?;
+        let mut ends = [None, None];
+        for (side, (soft, label)) in ends.iter_mut().zip(&joint.soft_bodies).enumerate() {
+            let path = format!("{path}.soft_bodies[{side}]");
+            let find = |label| soft::find(label, (&self.soft_bodies, softs), &path);
+            *soft = label.as_ref().map(find).transpose()?;
+        }
+        let made = world
+            .add_soft_joint(joint.def(pair), ends)
+            .map_err(|error| joint.wrong(&path, &error))?;
         let made = world.joint_mut(made).map_err(at(&path))?;
         joint.state.resume(made, &format!("{path}.state"))
     }

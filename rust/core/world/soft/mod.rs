@@ -19,7 +19,7 @@ use crate::body::{Filter, Surface};
 use crate::constraints::matter::Grip;
 use crate::error::Result;
 use crate::joint::Joint;
-use crate::math::Vec2;
+use crate::math::{Real, Vec2};
 use crate::soft::{Gas, Moving, SoftBody, SoftDef, SoftHandle};
 use crate::world::World;
 use joints::SoftJoint;
@@ -158,6 +158,14 @@ impl World {
     /// A body that is gone, another number of nodes, forces that are not finite.
     pub fn set_soft_forces(&mut self, body: SoftHandle, forces: &[Vec2]) -> Result<()> {
         self.change_soft(body, |body| body.set_forces(forces))
+    }
+
+    /// Sets how a deformable body has yielded.
+    ///
+    /// # Errors
+    /// A body that is gone, another number of points, what is not finite.
+    pub(crate) fn set_soft_flow(&mut self, body: SoftHandle, flow: &[[Real; 4]]) -> Result<()> {
+        self.change_soft(body, |body| body.set_flow(flow))
     }
 
     /// Sets what a deformable body is like to touch.
