@@ -70,7 +70,9 @@ fn joints_keep_momentum_angular_momentum_and_the_books() {
             assert!((world.momentum() - p).norm() < 1e-12 * p.norm(), "{name}");
             let off = (world.angular_momentum(about) - l).abs();
             assert!(off < 1e-10 * l.abs(), "{name}, rigid {rigid}: {off:e} of {l}");
-            assert!(gap < 1e-5, "{name}, rigid {rigid}: {gap:e}");
+            // A pin without the correction of turning arms opens by 1.4e-6 m.
+            let most = if name == "pin" { 8e-7 } else { 1e-5 };
+            assert!(gap < most, "{name}, rigid {rigid}: {gap:e}");
             let energy = world.energy().unwrap();
             let lost = (energy.balance() - balance).abs();
             assert!(lost < 1e-10 * balance, "{name}: {lost:e} of {balance}");
@@ -143,7 +145,7 @@ fn a_motor_spins_a_wheel_of_rubber_up_to_its_speed() {
     let body = world.soft_body(soft).unwrap();
     let rate = body.angular_momentum(vec2(3.0, 4.0)) / body.mass() / 0.14;
     assert!((rate / spin(&world, hub) - 1.0).abs() < 0.05, "{rate} {}", spin(&world, hub));
-    assert!(gap < 1e-5, "{gap:e}");
+    assert!(gap < 1e-6, "{gap:e}");
 }
 
 #[test]
