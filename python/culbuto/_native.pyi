@@ -1851,7 +1851,25 @@ class StepReport:
 
     __match_args__: ClassVar[
         tuple[
-            str, str, str, str, str, str, str, str, str, str, str, str, str, str, str, str, str, str
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
+            str,
         ]
     ]
 
@@ -1859,6 +1877,7 @@ class StepReport:
         cls,
         duration: float,
         steps: int,
+        stiff_steps: int,
         rejected: int,
         evaluations: int,
         sweeps: int,
@@ -1882,6 +1901,9 @@ class StepReport:
     @property
     def steps(self) -> int:
         """Steps of the methods, summed over what moves by itself; a closed form counts one."""
+    @property
+    def stiff_steps(self) -> int:
+        """Of the steps, those of Radau's method in runs to a tolerance, where motion was stiff."""
     @property
     def rejected(self) -> int:
         """Steps that were tried again because their error was too large."""

@@ -98,6 +98,7 @@ def _summed(reports: list[StepReport]) -> StepReport:
     return StepReport(
         sum(report.duration for report in reports),
         sum(report.steps for report in reports),
+        sum(report.stiff_steps for report in reports),
         sum(report.rejected for report in reports),
         sum(report.evaluations for report in reports),
         sum(report.sweeps for report in reports),

@@ -34,6 +34,7 @@ impl StepReport {
             }
         };
         count("steps", self.steps);
+        count("of them stiff, by radau5", self.stiff_steps);
         count("rejected", self.rejected);
         count("evaluations", self.evaluations);
         count("sweeps", self.sweeps);

@@ -22,6 +22,8 @@ record! {
         duration: Real,
         /// Steps of the methods, summed over what moves by itself; a closed form counts one a call.
         steps: u64,
+        /// Of the steps, those of Radau's method in runs to a tolerance, where the motion was stiff.
+        stiff_steps: u64,
         /// Steps that were tried again because their error was too large.
         rejected: u64,
         /// Evaluations of the forces.
@@ -64,6 +66,7 @@ impl From<&culbuto::World> for StepReport {
         Self {
             duration: report.duration,
             steps: report.steps,
+            stiff_steps: report.stiff_steps,
             rejected: report.rejected,
             evaluations: report.evaluations,
             sweeps: report.sweeps,

@@ -37,6 +37,7 @@ DOWN = "M0,1L1,-.9H-1Z"
 LEFT = "M-1,0L.9,-1V1Z"
 RIGHT = "M1,0L-.9,-1V1Z"
 PENTAGON = "M0,-1L.95,-.31L.59,.81H-.59L-.95,-.31Z"
+HEXAGON = "M0,-1L.87,-.5V.5L0,1L-.87,.5V-.5Z"
 PLUS = "M-.35,-1H.35V-.35H1V.35H.35V1H-.35V.35H-1V-.35H-.35Z"
 CROSS = "M-1,-.5L-.5,-1L0,-.5L.5,-1L1,-.5L.5,0L1,.5L.5,1L0,.5L-.5,1L-1,.5L-.5,0Z"
 STAR = "M0,-1.3L.31,-.4H1.24L.5,.16L.76,1.05L0,.52L-.76,1.05L-.5,.16L-1.24,-.4H-.31Z"
@@ -51,6 +52,7 @@ METHODS = {
     "yoshida4": Look("Yoshida 4", "#2f9fc4", "#8bd5f0", "s", SQUARE),
     "yoshida6": Look("Yoshida 6", "#5a3fc0", "#b3a1ff", "D", DIAMOND),
     "rk4": Look("RK4", "#12805c", "#4cc38a", "^", UP),
+    "radau5": Look("Radau IIA 5", "#7a4a1e", "#d9a679", "h", HEXAGON),
     "dop853": Look("DOP853", "#b5327f", "#f58cc4", "P", PLUS),
     "trapezoid": Look("trapezoid", "#737b83", "#a9b1ba", "<", LEFT),
     "semi_implicit_euler": Look("semi-implicit Euler", "#b98300", "#f2c14e", "v", DOWN),

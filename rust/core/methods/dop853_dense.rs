@@ -61,31 +61,28 @@ impl Dense {
     }
 }
 
+/// The state at a fraction of a step.
+type At<'a> = &'a dyn Fn(Real) -> Vec<Real>;
+
 /// Where in a step, as a fraction of it, a body first shows the air another facet than it is let see,
 /// and the facets from there on. None where they stay the same.
-pub fn first_kink(
-    y: &mut Columns,
-    system: &mut System<'_>,
-    (time, h): (Real, Real),
-) -> Result<Option<(Real, Facets)>> {
-    let dense = Dense::new(y, system, time, h)?;
-    let forces = &system.forces;
+pub fn first_kink(at: At<'_>, forces: &Forces<'_>) -> Option<(Real, Facets)> {
     let shows = |x: Real| {
-        let state = dense.at(x);
+        let state = at(x);
         let (poses, twists) = first_order::split(&state);
         forces.shows_facets(poses, twists)
     };
     let mut looks: Vec<Real> = (1..=LOOKS).map(look).collect();
     for body in 0..forces.shown.facets.len() {
-        extremes(|x| turns_left(&dense, forces, body, x), &mut looks);
+        extremes(|x| turns_left(at, forces, body, x), &mut looks);
     }
     looks.sort_unstable_by(Real::total_cmp);
-    let Some(k) = looks.iter().position(|x| !shows(*x)) else { return Ok(None) };
+    let k = looks.iter().position(|x| !shows(*x))?;
     let before = if k > 0 { looks[k - 1] } else { 0.0 };
     let after = last_change(before, looks[k], shows);
-    let state = dense.at(after);
+    let state = at(after);
     let (poses, twists) = first_order::split(&state);
-    Ok(Some((after, forces.facets_of(poses, twists))))
+    Some((after, forces.facets_of(poses, twists)))
 }
 
 /// How often a step is looked at.
@@ -119,11 +116,11 @@ fn last_change(mut before: Real, mut after: Real, is: impl Fn(Real) -> bool) -> 
 }
 
 /// Whether the air's direction, seen from a body, turns to the left at a fraction of a step.
-fn turns_left(dense: &Dense, forces: &Forces<'_>, body: usize, x: Real) -> bool {
+fn turns_left(at: At<'_>, forces: &Forces<'_>, body: usize, x: Real) -> bool {
     /// A difference of angles over this part of a step is far above rounding.
     const APART: Real = 1e-4;
     let ends = [x - 0.5 * APART, x + 0.5 * APART].map(|x| {
-        let state = dense.at(x);
+        let state = at(x);
         let (poses, twists) = first_order::split(&state);
         forces.heading(&poses[body], &twists[body])
     });

@@ -83,6 +83,13 @@ pub fn split(y: &[Real]) -> (&[Pose], &[Twist]) {
     (bytemuck::cast_slice(&y[..n]), bytemuck::cast_slice(&y[n..2 * n]))
 }
 
+/// The same, to be changed.
+pub fn split_mut(y: &mut [Real]) -> (&mut [Pose], &mut [Twist]) {
+    let n = BODY * bodies(y);
+    let (poses, rest) = y.split_at_mut(n);
+    (bytemuck::cast_slice_mut(poses), bytemuck::cast_slice_mut(&mut rest[..n]))
+}
+
 /// Writes a flat column to a motion.
 pub fn write(y: &[Real], motion: &mut Motion<'_>) {
     let (poses, twists) = split(y);

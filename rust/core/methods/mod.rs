@@ -1,6 +1,7 @@
 //! How bodies move through time. One file a method; each states its facts in one line of the
 //! [`REGISTRY`], from which names, documentation and the tests of order come.
 
+mod adaptive;
 pub mod closed_form;
 pub mod contact_step;
 mod dop853;
@@ -10,16 +11,21 @@ pub mod events;
 mod explicit_euler;
 mod first_order;
 mod guard;
+mod jacobian;
 pub mod joined;
 mod leapfrog;
+mod lu;
+mod radau5;
 mod rattle;
 mod rk4;
+mod scale;
 mod semi_implicit_euler;
+mod stiffness;
 mod system;
 mod trapezoid;
 mod yoshida;
 
-pub use dop853::{Adaptive, Control, Progress, Sink, Watch};
+pub use adaptive::{Adaptive, Control, Progress, Sink, Watch};
 pub use system::System;
 
 use crate::error::{Error, Result};
@@ -100,6 +106,9 @@ pub struct Scratch {
     led: Vec<Twist>,
     /// Flat columns of the methods of first order systems.
     flat: first_order::Columns,
+    /// Radau's method, and what its errors are measured against.
+    radau: radau5::Radau,
+    scales: [scale::Scales; 2],
 }
 
 /// A way through time at a fixed step.
@@ -134,6 +143,7 @@ pub static REGISTRY: &[&dyn Method] = &[
     &yoshida::YOSHIDA6,
     &rk4::Rk4,
     &dop853::Dop853,
+    &radau5::Radau5,
     &trapezoid::Trapezoid,
     &semi_implicit_euler::SemiImplicitEuler,
     &explicit_euler::ExplicitEuler,

@@ -24,6 +24,8 @@ pub struct StepReport {
     pub duration: Real,
     /// Steps of the methods, summed over the islands; a closed form counts one a call.
     pub steps: u64,
+    /// Of the steps, those that Radau's method took in runs to a tolerance, where the motion was stiff.
+    pub stiff_steps: u64,
     /// Steps that were tried again because their error was too large.
     pub rejected: u64,
     /// Force evaluations, summed over the islands.
@@ -58,6 +60,7 @@ impl Default for StepReport {
         Self {
             duration: 0.0,
             steps: 0,
+            stiff_steps: 0,
             rejected: 0,
             evaluations: 0,
             sweeps: 0,
@@ -79,6 +82,7 @@ impl StepReport {
     /// Books what a run to a tolerance took.
     pub(super) fn book_progress(&mut self, progress: &Progress) {
         self.steps += progress.steps;
+        self.stiff_steps += progress.stiff;
         self.rejected += progress.rejected;
         self.smallest_step = self.smallest_step.min(progress.smallest);
     }

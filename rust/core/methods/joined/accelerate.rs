@@ -16,8 +16,11 @@ impl Joints {
         self.look(poses, twists);
         self.reactions.fill(Wrench::ZERO);
         self.share = 1.0;
-        let mut power = self.add_springs(twists, out);
-        self.book_springs(twists, 1.0);
+        let mut power = Ledger::default();
+        if !self.springless {
+            power = self.add_springs(twists, out);
+            self.book_springs(twists, 1.0);
+        }
         if self.holds() {
             self.factor();
             self.solve(out, |row, a| -(row.velocity(a) + row.turning));
@@ -69,7 +72,7 @@ impl Joints {
     }
 
     /// Adds M⁻¹Jᵀf of a row.
-    fn push(&self, tie: &Tie, row: &Row, force: Real, out: &mut [Twist]) {
+    pub(super) fn push(&self, tie: &Tie, row: &Row, force: Real, out: &mut [Twist]) {
         for (slot, [x, y, turn]) in tie.bodies.iter().zip(row.jacobian) {
             let Some(slot) = slot.map(|slot| slot as usize) else { continue };
             let body = &self.inverse[slot];

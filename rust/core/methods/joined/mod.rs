@@ -5,6 +5,7 @@
 //! a slot as well, with no inverse mass.
 
 mod accelerate;
+mod jacobian;
 mod lead;
 mod settle;
 mod together;
@@ -62,6 +63,8 @@ pub struct Joints {
     pub reactions: Vec<Wrench>,
     /// What an impulse adds to them (1/s).
     share: Real,
+    /// Whether springs are left out of accelerations.
+    pub springless: bool,
     /// Systems of rows solved since the joints were loaded.
     pub solves: u64,
 }
