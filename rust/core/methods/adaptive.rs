@@ -1,8 +1,9 @@
 //! Runs to a tolerance: steps as long as their error allows, by DOP853, or by Radau's method where the motion is stiff.
 
 use crate::error::{Error, Result};
-use crate::forces::{BoxError, Facets};
-use crate::math::{Pose, Real, Twist, powf};
+use crate::forces::Facets;
+use crate::math::{Real, powf};
+use crate::methods::control::{Control, Progress, Sink, Watch};
 use crate::methods::dop853::{DENSE_STAGES, rates_seen, stages};
 use crate::methods::dop853_dense::{Dense, first_kink};
 use crate::methods::dop853_table::{E3, E5};
@@ -10,40 +11,9 @@ use crate::methods::first_order::{self, Columns};
 use crate::methods::guard::{Guard, Stop};
 use crate::methods::radau5::{Radau, Step};
 use crate::methods::scale::Scales;
+use crate::methods::step_size::{CALM, SAME, SOLVED, follow, predict, shrink, strict};
 use crate::methods::stiffness::Choice;
 use crate::methods::{Motion, Scratch, Span, System};
-
-/// Takes samples of a run: the number of the sample, and the state of the run's bodies there.
-pub type Sink<'a> = dyn FnMut(usize, &[Pose], &[Twist]) + 'a;
-
-/// Is asked at every step whether to go on; an error stops the run.
-pub type Watch<'a> = dyn FnMut() -> std::result::Result<(), BoxError> + 'a;
-
-/// What a run to a tolerance is asked for.
-pub struct Control<'a> {
-    /// Largest local error of a step, relative to the body's size or the way it went (positions), a
-    /// radian (angles), and the largest speeds so far.
-    pub tolerance: Real,
-    /// Sizes ℓ of the bodies (m).
-    pub sizes: &'a dyn Fn(usize) -> Real,
-    /// Moments at which the state is wanted, in seconds from the start of the span, increasing.
-    pub samples: &'a [Real],
-}
-
-/// What a run to a tolerance took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Progress {
-    /// Steps accepted.
-    pub steps: u64,
-    /// Steps tried again because their error was too large.
-    pub rejected: u64,
-    /// Of the steps accepted, those of Radau's method.
-    pub stiff: u64,
-    /// Smallest step accepted (s); infinite where there was none.
-    pub smallest: Real,
-    /// Sum of the local errors, in the units of the tolerance.
-    pub estimate: Real,
-}
 
 /// A kink at which a step ends: what the air sees from there on, and the step that would have been.
 struct Turn {
@@ -495,45 +465,4 @@ impl<'a> Adaptive<'a> {
         self.progress.smallest = self.progress.smallest.min(h);
         self.progress.estimate += likely * self.control.tolerance;
     }
-}
-
-/// An error below this part of the tolerance says no more than that the step may grow.
-const CALM: Real = 1e-4;
-
-/// Factor from a step to the next by its error and by that of the step before: 0.9·error^(−0.7/8)·before^(0.4/8)
-/// within [1/3, 6]. It takes the trend along, so that few steps are rejected where errors change fast.
-///
-/// Hairer, Wanner, "Solving Ordinary Differential Equations II" (1996), section IV.2, (2.43c): a PI controller.
-fn follow(error: Real, before: Real) -> Real {
-    (0.9 * powf(error, -0.7 / 8.0) * powf(before, 0.4 / 8.0)).clamp(1.0 / 3.0, 6.0)
-}
-
-/// Factor from a step that is rejected to the one that is tried instead: 0.9·error^(−1/order), not below 1/3.
-fn shrink(error: Real, order: Real) -> Real {
-    (0.9 * powf(error, -1.0 / order)).max(1.0 / 3.0)
-}
-
-/// Factor from a step of Radau's to the next, by its error, that and the length of the step before, and the iterations it took:
-/// within [1/5, 8].
-///
-/// Hairer, Wanner, "Solving Ordinary Differential Equations II" (1996), section IV.8, (8.21) and (8.25): Gustafsson's controller.
-fn predict(h: Real, error: Real, before: Option<(Real, Real)>, iterations: u32) -> Real {
-    let own = powf(error, -0.25);
-    let trend = before.map_or(Real::INFINITY, |(error_before, h_before)| {
-        h / h_before * powf(error_before / error, 0.25) * own
-    });
-    let safe = 0.9 * 21.0 / (20.0 + Real::from(iterations));
-    (safe * own.min(trend)).clamp(0.2, 8.0)
-}
-
-/// A step of Radau's that may grow by less keeps its length.
-const SAME: Real = 1.2;
-
-/// Part of the tolerance to which the equations of a stiff step are solved.
-const SOLVED: Real = 0.01;
-
-/// What the estimate of Radau's method, of order 3, is kept below so that its error, of order 5, is within a tolerance: a tenth
-/// of its power 2/3, as its authors' code has it.
-fn strict(tolerance: Real) -> Real {
-    0.1 * powf(tolerance, 2.0 / 3.0)
 }

@@ -58,9 +58,8 @@ impl<T: ComplexField<RealField = Real> + Copy> Lu<T> {
     pub fn solve(&self, b: &mut [T]) {
         let column = |k: usize| &self.factors[k * self.n..(k + 1) * self.n];
         for (k, best) in self.exchanges.iter().enumerate() {
+            // Columns to the left of an exchange were left as they were.
             b.swap(k, *best);
-        }
-        for k in 0..self.n {
             let part = b[k];
             subtract(&mut b[k + 1..], part, &column(k)[k + 1..]);
         }

@@ -4,6 +4,7 @@
 mod adaptive;
 pub mod closed_form;
 pub mod contact_step;
+mod control;
 mod dop853;
 mod dop853_dense;
 mod dop853_table;
@@ -20,12 +21,14 @@ mod rattle;
 mod rk4;
 mod scale;
 mod semi_implicit_euler;
+mod step_size;
 mod stiffness;
 mod system;
 mod trapezoid;
 mod yoshida;
 
-pub use adaptive::{Adaptive, Control, Progress, Sink, Watch};
+pub use adaptive::Adaptive;
+pub use control::{Control, Progress, Sink, Watch};
 pub use system::System;
 
 use crate::error::{Error, Result};
