@@ -33,7 +33,7 @@ fn pour(world: &mut World, (low, high): (Vec2, Vec2), spacing: Real, material: M
 }
 
 fn water() -> Material {
-    Material { density: 1000.0, viscosity: 0.5 }
+    Material { density: 1000.0, viscosity: 0.5, ..Material::default() }
 }
 
 /// A drop of fluid around a free disk, without gravity and walls, both turning and moving.
@@ -50,7 +50,9 @@ fn free_drop(viscosity: Real) -> World {
     let square = rectangle(vec2(-0.4, -0.4), vec2(0.4, 0.4));
     let mut points = lattice_in(&square, 0.04).unwrap();
     points.retain(|p| p.norm() > 0.16);
-    world.add_fluid(&points, 0.04, Material { density: 1000.0, viscosity }).unwrap();
+    world
+        .add_fluid(&points, 0.04, Material { density: 1000.0, viscosity, ..Material::default() })
+        .unwrap();
     world
 }
 
@@ -220,7 +222,7 @@ fn a_failed_call_leaves_the_fluid_as_it_was() {
 fn what_is_not_allowed_is_refused() {
     let mut world = World::default();
     let points = [vec2(0.0, 0.0)];
-    let material = Material { density: -1.0, viscosity: 0.0 };
+    let material = Material { density: -1.0, viscosity: 0.0, ..Material::default() };
     assert!(world.add_fluid(&points, 0.1, material).is_err());
     assert!(world.add_fluid(&points, 0.0, Material::default()).is_err());
     assert!(world.add_fluid(&[vec2(Real::NAN, 0.0)], 0.1, Material::default()).is_err());
@@ -277,7 +279,7 @@ fn slam(speed: Real, density: Real) -> usize {
     let mut world = World::default();
     tank(&mut world, 1.0);
     pour(&mut world, (vec2(0.0, 0.0), vec2(1.0, 0.4)), 0.04, water());
-    let above = Material { density, viscosity: 0.01 };
+    let above = Material { density, viscosity: 0.01, ..Material::default() };
     pour(&mut world, (vec2(0.0, 0.4), vec2(1.0, 0.8)), 0.04, above);
     let body = BodyDef {
         position: vec2(0.45, 1.2),

@@ -53,6 +53,7 @@ __all__ = [
     "Field",
     "Fluid",
     "Frame",
+    "Inflow",
     "Joints",
     "MassProperties",
     "Nearest",
@@ -1196,6 +1197,31 @@ class Fluid:
     @viscosity.setter
     def viscosity(self, viscosity: float) -> None: ...
     @property
+    def tension(self) -> float:
+        """Surface tension (N/m). Where two fluids meet, both pull."""
+    @tension.setter
+    def tension(self, tension: float) -> None: ...
+    @property
+    def adhesion(self) -> float:
+        """Work of adhesion (N/m) to solids: σ(1 + cos θ) for a contact angle θ."""
+    @adhesion.setter
+    def adhesion(self, adhesion: float) -> None: ...
+    @property
+    def name(self) -> str | None:
+        """Name; None if it has none."""
+    @name.setter
+    def name(self, name: str | None) -> None: ...
+    @property
+    def lifetime(self) -> float | None:
+        """How long (s) its particles are there, from when they were added; None: for ever."""
+    @lifetime.setter
+    def lifetime(self, lifetime: float | None) -> None: ...
+    @property
+    def inflows(self) -> list[Inflow]:
+        """Where it flows in. One at a segment where there was one goes on from its last row."""
+    @inflows.setter
+    def inflows(self, inflows: Sequence[Inflow]) -> None: ...
+    @property
     def spacing(self) -> float:
         """Distance of its particles from one another at rest (m)."""
     @property
@@ -1230,6 +1256,39 @@ class Fluid:
     def __len__(self) -> int: ...
     def __bool__(self) -> bool: ...
     def __reduce__(self) -> tuple[Callable[[World], Any], tuple[World], dict[str, Any]]: ...
+
+@final
+class Inflow:
+    """A nozzle: through a segment flows fluid with one velocity, whatever presses against it.
+
+    Rows of particles are born two spacings behind the segment and keep that velocity until they
+    have passed it.
+    """
+
+    __match_args__: ClassVar[tuple[str, str, str, str]]
+
+    def __new__(
+        cls,
+        start: _Vec2Arg,
+        end: _Vec2Arg,
+        velocity: _Vec2Arg,
+        progress: float | None = ...,
+    ) -> Inflow: ...
+    @property
+    def start(self) -> Vec2:
+        """One end of the segment (m)."""
+    @property
+    def end(self) -> Vec2:
+        """The other (m)."""
+    @property
+    def velocity(self) -> Vec2:
+        """Velocity (m/s) of what comes out; not along the segment."""
+    @property
+    def progress(self) -> float | None:
+        """Way (m) of the last row since it was born; None: there was no row yet."""
+    def __eq__(self, value: object, /) -> bool: ...
+    def __ne__(self, value: object, /) -> bool: ...
+    def __reduce__(self) -> tuple[type[Inflow], tuple[Any, ...]]: ...
 
 @final
 class SoftContact:
@@ -2368,20 +2427,32 @@ class World:
         """
     def add_fluid(
         self,
-        points: ArrayLike | Shape,
+        points: ArrayLike | Shape | None = None,
         *,
         spacing: float,
         density: float = 1000.0,
         viscosity: float = 0.0,
+        tension: float = 0.0,
+        adhesion: float = 0.0,
+        name: str | None = None,
     ) -> Fluid:
         """Adds a fluid with particles at points (n, 2) (m), or on a lattice in a shape.
 
         The shape is given in the frame of the world. `spacing` is the distance of the particles at
-        rest (m), the same for all fluids of a world; density is in kg/m², viscosity in Pa·s.
+        rest (m), the same for all fluids of a world; density is in kg/m², viscosity in Pa·s,
+        tension and adhesion are in N/m. Without points, particles come by `inflows` or `add`.
         """
     @property
     def fluids(self) -> list[Fluid]:
         """All fluids."""
+    @property
+    def drains(self) -> list[Shape]:
+        """Regions, in the frame of the world, that remove the particles which enter them."""
+    @drains.setter
+    def drains(self, drains: Sequence[Shape]) -> None: ...
+    @property
+    def surface_energy(self) -> float:
+        """Energy of the surfaces of fluids (J), part of the potential energy."""
     @property
     def threads(self) -> int:
         """Threads that work on fluids, 1 unless set; runs have the same bits on any number."""

@@ -13,6 +13,7 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
+from culbuto.fluid_drawing import FluidMark, draw_fluids, fluid_marks
 from culbuto.joint_drawing import Mark, marks
 from culbuto.soft_drawing import COLOUR, SoftMark, soft_marks
 
@@ -81,23 +82,24 @@ def svg(world: World, *, joints: bool = True) -> str:
         world: The world.
         joints: Whether joints are drawn.
     """
-    now, soft = sketches(world), soft_marks(world)
+    now, soft, wet = sketches(world), soft_marks(world), fluid_marks(world)
     canvas = _Canvas(_view(now, _reach(world, joints=joints)))
     tied = marks(world, HINGE / canvas.scale) if joints else []
-    drawn = [*map(canvas.body, now), *map(canvas.soft, soft), *map(canvas.joint, tied)]
-    return canvas.document(drawn)
+    drawn = [*map(canvas.fluid, wet), *map(canvas.body, now)]
+    return canvas.document([*drawn, *map(canvas.soft, soft), *map(canvas.joint, tied)])
 
 
 def _reach(world: World, *, joints: bool) -> list[Points]:
-    """Where deformable bodies are, and joints, whatever the size of their marks."""
-    soft = [body.positions for body in world.soft_bodies]
+    """Where fluids and deformable bodies are, and joints, whatever the size of their marks."""
+    soft = [fluid.positions for fluid in world.fluids if fluid.positions.size]
+    soft += [body.positions for body in world.soft_bodies]
     return [*soft, *(mark.points for mark in marks(world, 0.0))] if joints else soft
 
 
 def picture(world: World, trajectory: Trajectory, *, joints: bool = True) -> str:
     """A motion as an SVG: the bodies at its start (faint) and at its end, and the paths between.
 
-    Joints and deformable bodies are drawn at its end, if that is where the world is.
+    Fluids, joints and deformable bodies are drawn at its end, if that is where the world is.
     """
     moving = [i for i, body in enumerate(world.bodies) if body.kind != "static"]
 
@@ -114,6 +116,7 @@ def picture(world: World, trajectory: Trajectory, *, joints: bool = True) -> str
     canvas = _Canvas(_view(start + end, [*paths, *reach]))
     tied = marks(world, HINGE / canvas.scale) if joints and there else []
     return canvas.document([
+        *map(canvas.fluid, fluid_marks(world) if there else []),
         *(canvas.body(start[i], faint=True) for i in moving),
         *(canvas.path(path) for path in paths),
         *map(canvas.body, end),
@@ -195,6 +198,13 @@ class _Canvas:
         kind = quoteattr(f"body {sketch.kind}")
         return f'<g class={kind} stroke="{colour}"{opacity}>{"".join(parts)}</g>'
 
+    def fluid(self, mark: FluidMark) -> str:
+        """A fluid: a dot for each particle."""
+        title = f"<title>{escape(mark.name)}</title>" if mark.name else ""
+        dots = "".join(f"M{self._steps(point[None])}h0" for point in mark.points)
+        line = f'stroke-width="{max(mark.width * self.scale, 0.5):.2f}"'
+        return f'<g class="fluid" stroke="{mark.colour}">{title}<path d="{dots}" {line}/></g>'
+
     def soft(self, mark: SoftMark) -> str:
         """A deformable body: its triangles filled, its border."""
         parts = [f"<title>{escape(mark.name)}</title>"] if mark.name else []
@@ -243,6 +253,7 @@ def draw(world: World, ax: Axes, *, joints: bool = True, **style: Any) -> Axes: 
     from matplotlib.patches import PathPatch  # noqa: PLC0415 — comes with an extra
     from matplotlib.path import Path  # noqa: PLC0415
 
+    draw_fluids(world, ax)
     now = sketches(world)
     for sketch in now:
         colour = COLOURS[sketch.kind]

@@ -1,6 +1,7 @@
 //! Fluids of particles.
 
-use culbuto::fluid::{Fluid as Kind, Fluids, Material, lattice_in};
+use culbuto::Part;
+use culbuto::fluid::{Fluid as Kind, Fluids, Inflow as Nozzle, Material, lattice_in};
 use culbuto::math::{Real, vec2};
 use numpy::{PyArray1, PyArray2};
 use pyo3::gc::{PyTraverseError, PyVisit};
@@ -9,8 +10,26 @@ use pyo3::prelude::*;
 use crate::convert::{self, Vec2Arg};
 use crate::error::to_py;
 use crate::parts::{Place, Reduced, reduced};
+use crate::record::record;
 use crate::shape::{Shape, rows};
+use crate::shapes::to_python;
+use crate::vec2::Vec2;
 use crate::world::World;
+
+record! {
+    /// A nozzle: through a segment flows fluid with one velocity, whatever presses against it. Rows of particles are born two
+    /// spacings behind the segment and keep that velocity until they have passed it.
+    Inflow {
+        /// One end of the segment (m).
+        start: Vec2,
+        /// The other (m).
+        end: Vec2,
+        /// Velocity (m/s) of what comes out; not along the segment.
+        velocity: Vec2,
+        /// Way (m) of the last row since it was born; None: there was no row yet.
+        progress: Option<Real> = None,
+    }
+}
 
 /// A fluid of particles. Worlds make them: `World.add_fluid`.
 #[pyclass(frozen, dict, weakref, module = "culbuto")]
@@ -94,6 +113,73 @@ impl Fluid {
     #[setter]
     fn set_viscosity(&self, py: Python<'_>, viscosity: Real) -> PyResult<()> {
         self.change(py, |material| material.viscosity = viscosity)
+    }
+
+    /// Surface tension (N/m). Where two fluids meet, both pull.
+    #[getter]
+    fn tension(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |fluids, fluid| Ok(fluids.material(fluid)?.tension))
+    }
+
+    #[setter]
+    fn set_tension(&self, py: Python<'_>, tension: Real) -> PyResult<()> {
+        self.change(py, |material| material.tension = tension)
+    }
+
+    /// Work of adhesion (N/m) to solids: σ(1 + cos θ) for a contact angle θ. Of fluids with surface tension.
+    #[getter]
+    fn adhesion(&self, py: Python<'_>) -> PyResult<Real> {
+        self.read(py, |fluids, fluid| Ok(fluids.material(fluid)?.adhesion))
+    }
+
+    #[setter]
+    fn set_adhesion(&self, py: Python<'_>, adhesion: Real) -> PyResult<()> {
+        self.change(py, |material| material.adhesion = adhesion)
+    }
+
+    /// Name; None if it has none.
+    #[getter]
+    fn name(&self, py: Python<'_>) -> PyResult<Option<String>> {
+        self.read(py, |fluids, fluid| Ok(fluids.list.get(fluid)?.name.clone()))
+    }
+
+    #[setter]
+    fn set_name(&self, py: Python<'_>, name: Option<String>) -> PyResult<()> {
+        self.write(py, |fluids, fluid| fluids.rename(fluid, name))
+    }
+
+    /// How long (s) its particles are there, from when they were added or from when this was first set; None: for ever.
+    #[getter]
+    fn lifetime(&self, py: Python<'_>) -> PyResult<Option<Real>> {
+        self.read(py, |fluids, fluid| Ok(fluids.list.get(fluid)?.lifetime))
+    }
+
+    #[setter]
+    fn set_lifetime(&self, py: Python<'_>, lifetime: Option<Real>) -> PyResult<()> {
+        self.write(py, |fluids, fluid| fluids.set_lifetime(fluid, lifetime))
+    }
+
+    /// Where it flows in. Setting it replaces all; one at a segment where there was one goes on from its last row.
+    #[getter]
+    fn inflows(&self, py: Python<'_>) -> PyResult<Vec<Inflow>> {
+        let own = self.read(py, Fluids::inflows)?;
+        let inflow = |own: Nozzle| Inflow {
+            start: Vec2(own.start),
+            end: Vec2(own.end),
+            velocity: Vec2(own.velocity),
+            progress: own.progress,
+        };
+        Ok(own.into_iter().map(inflow).collect())
+    }
+
+    #[setter]
+    fn set_inflows(&self, py: Python<'_>, inflows: Vec<Py<Inflow>>) -> PyResult<()> {
+        let inflow = |own: Py<Inflow>| {
+            let Inflow { start, end, velocity, progress } = own.get().clone();
+            Nozzle { start: start.0, end: end.0, velocity: velocity.0, progress }
+        };
+        let inflows: Vec<_> = inflows.into_iter().map(inflow).collect();
+        self.write(py, |fluids, fluid| fluids.set_inflows(fluid, &inflows))
     }
 
     /// Distance of its particles from one another at rest (m).
@@ -199,21 +285,27 @@ impl Fluid {
 #[pymethods]
 impl World {
     /// Adds a fluid with particles at points (n, 2) (m), or on a lattice in a shape given in the frame of the world;
-    /// `spacing` is their distance at rest (m), the same for all fluids of a world, `density` in kg/m², `viscosity` in Pa·s.
-    #[pyo3(signature = (points, *, spacing, density=1000.0, viscosity=0.0))]
+    /// `spacing` is their distance at rest (m), the same for all fluids of a world, `density` in kg/m², `viscosity` in Pa·s,
+    /// `tension` and `adhesion` in N/m. Without points, particles come by `inflows` or `add`.
+    #[pyo3(signature = (points=None, *, spacing, density=1000.0, viscosity=0.0, tension=0.0, adhesion=0.0, name=None))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
     fn add_fluid<'py>(
         slf: &Bound<'py, Self>,
-        points: &Bound<'py, PyAny>,
+        points: Option<&Bound<'py, PyAny>>,
         spacing: Real,
         density: Real,
         viscosity: Real,
+        tension: Real,
+        adhesion: Real,
+        name: Option<String>,
     ) -> PyResult<Bound<'py, Fluid>> {
-        let points = points_of(points, spacing)?;
+        let points = points.map_or(Ok(Vec::new()), |points| points_of(points, spacing))?;
         let fluid = Bound::new(slf.py(), Fluid { place: Place::new(slf) })?;
         let world = slf.get();
         let mut core = world.core(slf.py())?;
-        let material = Material { density, viscosity };
+        let material = Material { density, viscosity, tension, adhesion };
         let handle = core.add_fluid(&points, spacing, material).map_err(to_py)?;
+        core.fluids_mut().rename(handle, name).map_err(to_py)?;
         fluid.get().place.enter(handle);
         world.objects().fluids.push(fluid.clone().unbind());
         drop(core);
@@ -224,6 +316,27 @@ impl World {
     #[getter]
     fn fluids(&self, py: Python<'_>) -> Vec<Py<Fluid>> {
         self.objects().fluids.iter().map(|fluid| fluid.clone_ref(py)).collect()
+    }
+
+    /// Regions, in the frame of the world, that remove the particles of fluids which enter them.
+    #[getter]
+    fn drains<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let drains = self.core(py)?.fluids().drains().to_vec();
+        drains.into_iter().map(|shape| to_python(py, Part::from(shape))).collect()
+    }
+
+    #[setter]
+    fn set_drains(&self, py: Python<'_>, drains: Vec<Bound<'_, Shape>>) -> PyResult<()> {
+        let shapes = drains.into_iter().map(|drain| drain.get().part.shape.clone()).collect();
+        self.core(py)?.fluids_mut().set_drains(shapes);
+        Ok(())
+    }
+
+    /// Energy of the surfaces of fluids (J), part of the potential energy: at the start of the last substep, or as it is if
+    /// the fluids were changed since.
+    #[getter]
+    fn surface_energy(&self, py: Python<'_>) -> PyResult<Real> {
+        Ok(self.core(py)?.surface_energy())
     }
 
     /// Threads that work on fluids, 1 unless set. The bits of a run are the same on any number.
@@ -251,11 +364,11 @@ impl World {
     fn fluid_load(
         slf: &Bound<'_, Self>,
         body: &Bound<'_, crate::body::Body>,
-    ) -> PyResult<(crate::vec2::Vec2, Real)> {
+    ) -> PyResult<(Vec2, Real)> {
         let place = &body.get().place;
         place.check_world(slf)?;
         let core = slf.get().core(slf.py())?;
         let load = core.fluid_load(place.handle()?).map_err(to_py)?;
-        Ok((crate::vec2::Vec2(load.force), load.torque))
+        Ok((Vec2(load.force), load.torque))
     }
 }

@@ -69,7 +69,7 @@ mod culbuto_native {
     #[pymodule_export]
     use crate::field::{Attraction, Central, Field, Oscillating};
     #[pymodule_export]
-    use crate::fluid::Fluid;
+    use crate::fluid::{Fluid, Inflow};
     #[pymodule_export]
     use crate::found::{Distance, Nearest, RayHit};
     #[pymodule_export]

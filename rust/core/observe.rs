@@ -53,6 +53,7 @@ impl World {
         };
         let mut potential: Real = self.dynamic().map(in_gravity).sum();
         potential += self.spring_energy() + self.fluids().potential_energy(gravity);
+        potential += self.surface_energy();
         for body in self.soft_bodies() {
             kinetic += body.kinetic_energy();
             let weight = gravity * (body.mass() * body.def().gravity_scale);

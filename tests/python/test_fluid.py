@@ -92,3 +92,48 @@ def test_what_is_not_allowed_is_said() -> None:
         water.density = -1.0
     with pytest.raises(ValueError, match="tolerance"):
         world.advance(1.0, tolerance=1e-6)
+
+
+def test_a_nozzle_a_drain_and_a_lifetime() -> None:
+    world = cb.World(gravity=(0, 0))
+    fluid = world.add_fluid(spacing=0.05, tension=0.2, adhesion=0.1, name="ink")
+    assert (fluid.tension, fluid.adhesion, fluid.name) == (0.2, 0.1, "ink")
+    fluid.inflows = [cb.Inflow((0, 0), (0, 0.2), (1, 0))]
+    world.drains = [cb.Box(1, 1, center=(1, 0))]
+    world.step(DT, steps=60)
+    count = len(fluid)
+    assert 40 <= count <= 52
+    assert fluid.inflows[0].progress is not None
+    assert world.drains == [cb.Box(1, 1, center=(1, 0))]
+    assert world.surface_energy > 0
+    fluid.lifetime = 0.1
+    fluid.inflows = []
+    world.step(DT, steps=10)
+    assert len(fluid) == 0
+    with pytest.raises(ValueError, match="velocity"):
+        fluid.inflows = [cb.Inflow((0, 0), (0, 1), (0, 1))]
+    fluid.tension = 0.0
+    with pytest.raises(ValueError, match="tension"):
+        fluid.tension = -1.0
+
+
+def test_scene_files_hold_fluids() -> None:
+    world, water = tank()
+    water.inflows = [cb.Inflow((0.2, 0.4), (0.4, 0.4), (0, 1))]
+    world.add_fluid([[0.5, 1.0]], spacing=0.05, density=500, name="drop")
+    world.drains = [cb.Circle(0.1, center=(0.9, 0.1))]
+    world.step(DT, steps=5)
+    file = cb.SceneFile.from_world(world)
+    other = cb.SceneFile.from_json(file.to_json()).world()
+    assert other.fluids[1].name == "drop"
+    for each in (world, other):
+        each.step(DT, steps=5)
+    for fluid, copied in zip(world.fluids, other.fluids, strict=True):
+        np.testing.assert_array_equal(fluid.positions, copied.positions)
+
+
+def test_pictures_show_particles() -> None:
+    world, water = tank()
+    picture = world._repr_svg_()
+    assert picture.count('class="fluid"') == 1
+    assert picture.count("h0") == len(water)

@@ -31,7 +31,7 @@ def test_the_guide_is_valid() -> None:
     "change",
     [
         {"culbuto": 2},
-        {"fluids": []},
+        {"plasmas": []},
         {"joints": [{"joint": "filter"}]},
         {"joints": [{"bodies": [0, None], "joint": "custom"}]},
         {"joints": [{"bodies": [0, None], "joint": {"gear": {}}}]},

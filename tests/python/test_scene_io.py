@@ -150,7 +150,8 @@ CIRCLE = '"shape": {"circle": {"radius": 1}}'
 BAD = [
     ('{"culbuto": 2}', "at culbuto: version 2 is not known"),
     ("{}", r"at \.: no version"),
-    ('{"culbuto": 1, "fluids": []}', "at fluids: unknown field `fluids`"),
+    ('{"culbuto": 1, "plasmas": []}', "at plasmas: unknown field `plasmas`"),
+    ('{"culbuto": 1, "fluids": [{"spacing": 0}]}', r"at fluids\[0\]\.spacing"),
     ('{"culbuto": 1, "bodies": [{"mass": 1, "colour": 3}]}', r"at bodies\[0\].*colour"),
     (
         f'{{"culbuto": 1, "bodies": [{{"shapes": [{{{CIRCLE}, "material": "wood"}}]}}]}}',

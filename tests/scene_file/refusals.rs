@@ -9,7 +9,7 @@ use crate::worlds::Righting;
 
 /// (the rest of a file after `"culbuto": 1`, path, part of the message).
 const BAD: &[(&str, &str, &str)] = &[
-    (r#""fluids": []"#, "fluids", "unknown field"),
+    (r#""plasmas": []"#, "plasmas", "unknown field"),
     (r#""gravity": "down""#, "gravity", "expected two numbers"),
     (r#""gravity": [0]"#, "gravity", "expected two numbers"),
     (r#""gravity": [0, 1, 2]"#, "gravity", "expected two numbers"),

@@ -1,16 +1,20 @@
 //! A substep of the fluid: what is near what, divergence, forces, pressure, motion.
 
 use super::cells::Cells;
-use super::kernel::{Kernel, lattice};
+use super::kernel::Kernel;
 use super::pairs::{Around, Pair, Pairs};
 use super::particles::Spare;
 use super::pressure::{self, Coupling, Effort, Goal};
 use super::solid::{Solid, Touches};
+use super::streams::Held;
 use super::team::Team;
+use super::tension::{Seen, Surface};
 use super::viscosity::{self, Friction};
 use super::{Fluids, Material};
 use crate::body::Bodies;
 use crate::math::{Real, Twist, Vec2};
+
+mod forces;
 
 /// What the fluid works with in a step; nothing of it is part of the state.
 #[derive(Clone, Debug, Default)]
@@ -35,6 +39,14 @@ pub struct Flow {
     rates: Vec<Real>,
     /// Velocities before the pressures.
     free: Vec<Vec2>,
+    /// Particles that inflows hold.
+    held: Vec<Held>,
+    /// Work (J) of inflows on what they hold, in this substep.
+    pub work: Real,
+    surface: Surface,
+    tension: Vec<Real>,
+    adhesion: Vec<Real>,
+    forces: Vec<Pair>,
     /// Impulses (N·s) that the bodies have got before the pressures.
     given: Vec<Twist>,
     /// All impulses that the bodies get in the substep.
@@ -45,6 +57,10 @@ pub struct Flow {
 
 /// Part of the overdensity that is taken back in a substep, so that it sets nothing swinging.
 const CORRECTION: Real = 0.2;
+
+/// Farthest way of a particle and its neighbours in a substep to take overdensity back, over the spacing: what was put into
+/// a wall, or into other particles, comes out gently.
+const GENTLE: Real = 0.1;
 
 /// How far below its density a particle may be without being pressed: a band in which pressures stay.
 const BAND: Real = 0.01;
@@ -92,7 +108,7 @@ impl Flow {
                 fastest = fastest.max(speed);
             }
         }
-        COURANT * fluids.spacing / fastest
+        (COURANT * fluids.spacing / fastest).min(fluids.longest_wave())
     }
 
     /// Finds what is near what, takes back the divergence, and lets the forces act. Bodies then have their velocities as
@@ -103,9 +119,12 @@ impl Flow {
     }
 
     fn prepare(&mut self, fluids: &mut Fluids, bodies: &Bodies, (gravity, h): (Vec2, Real)) {
+        self.work = 0.0;
         self.neighbours(fluids, bodies, h);
         self.relax(fluids, h);
         self.force(fluids, gravity, h);
+        let area = fluids.area();
+        self.hold(&mut fluids.particles.velocities, area);
         self.free.clear();
         self.free.extend_from_slice(&fluids.particles.velocities);
         self.given.clear();
@@ -117,7 +136,7 @@ impl Flow {
         let area = fluids.area();
         self.cells.sort(&fluids.particles.positions, kernel.support);
         fluids.particles.reorder(&self.cells.order, &mut self.spare);
-        let Fluids { particles, .. } = &mut *fluids;
+        let particles = &fluids.particles;
         let n = particles.len();
         self.pairs.find(&self.cells, &particles.positions, (&kernel, area), &self.team);
         let (cells, positions) = (&self.cells, &particles.positions[..]);
@@ -127,11 +146,20 @@ impl Flow {
         fill(&mut self.density, fluids, |material| material.density);
         self.inverse_density.clear();
         self.inverse_density.extend(self.density.iter().map(|density| 1.0 / density));
+        fluids.held(&mut self.held);
+        // What an inflow holds gives way to nothing.
+        for Held { particle, velocity } in &self.held {
+            self.inverse_density[*particle as usize] = 0.0;
+            fluids.particles.velocities[*particle as usize] = *velocity;
+        }
+        let particles = &mut fluids.particles;
         self.around.resize(n, Around::default());
         self.pairs.sum_around(&self.inverse_density, &mut self.around, &self.team);
         let touches = (&self.touches.list[..], &self.touches.wet[..]);
         let own = (&self.inverse_density[..], area);
         pressure::diagonal(touches, &mut self.around, own, &mut self.diagonal);
+        // What is held gives way to nothing, so that nothing presses it; its neighbours are pressed away from it.
+        self.held.iter().for_each(|held| self.diagonal[held.particle as usize] = 0.0);
         // A particle that nothing is near cannot be pressed.
         let least = 1e-9 / (fluids.spacing * fluids.spacing);
         for (diagonal, inverse) in self.diagonal.iter_mut().zip(&self.inverse_density) {
@@ -141,8 +169,8 @@ impl Flow {
         }
         let own = area * kernel.value(0.0);
         let parts = self.around.iter().map(|around| around.part + own);
-        fluids.particles.compressions.clear();
-        fluids.particles.compressions.extend(parts);
+        particles.compressions.clear();
+        particles.compressions.extend(parts);
     }
 
     /// Takes back the divergence that the last step left, where the fluid is dense.
@@ -164,59 +192,6 @@ impl Flow {
         wet.for_each(|(wet, impulse)| wet.push(impulse));
     }
 
-    /// Gravity and viscosity.
-    fn force(&mut self, fluids: &mut Fluids, gravity: Vec2, h: Real) {
-        let area = fluids.area();
-        fill(&mut self.viscosity, fluids, |material| material.viscosity);
-        let particles = &mut fluids.particles;
-        particles.velocities.iter_mut().for_each(|velocity| *velocity += gravity * h);
-        if self.viscosity.iter().all(|viscosity| *viscosity == 0.0) {
-            return;
-        }
-        self.even_out(&particles.positions, area);
-        let friction = Friction {
-            pairs: &self.pairs,
-            touches: &self.touches,
-            positions: &particles.positions,
-            viscosity: &self.viscosity,
-            density: &self.density,
-            area,
-            h,
-            team: &self.team,
-        };
-        let velocities: &mut [Pair] = bytemuck::cast_slice_mut(&mut particles.velocities);
-        let mut given = std::mem::take(&mut self.given);
-        given.clear();
-        given.resize(self.impulses.len(), Twist::ZERO);
-        friction.brake(velocities, &mut given, &mut self.braking);
-        for ((wet, all), own) in self.touches.wet.iter_mut().zip(&mut self.impulses).zip(&given) {
-            wet.push(own);
-            *all += *own;
-        }
-        self.given = given;
-    }
-
-    /// Scales the viscosity at each particle by what its neighbours lack to pull as those on a lattice do: where rows slide
-    /// past one another they pull 2 % less in the mean. The discrete divergence of the field x, which is 2, lacks the same;
-    /// where neighbours are missing, at surfaces, the part of the kernel that they fill tells that it should.
-    fn even_out(&mut self, positions: &[Vec2], area: Real) {
-        let Self { pairs, touches, around, rates, team, .. } = self;
-        let lattice = lattice();
-        rates.resize(positions.len(), 0.0);
-        pairs.converge(bytemuck::cast_slice(positions), rates, team);
-        rates.iter_mut().for_each(|rate| *rate *= -0.5 * lattice.shear);
-        for touch in &touches.list {
-            rates[touch.particle as usize] += lattice.pull * touch.part;
-        }
-        let spacing = (area / lattice.area).sqrt();
-        let full = 1.0 - area * Kernel::new(spacing).value(0.0);
-        for ((viscosity, around), pull) in self.viscosity.iter_mut().zip(around).zip(rates) {
-            // What lies nearly in one place pulls together anyway.
-            let part = around.part / full;
-            *viscosity *= if part > 0.0 { part / pull.max(0.5 * part) } else { 1.0 };
-        }
-    }
-
     /// Finds the pressures that keep the density, where all else changes the velocities of the wet bodies by `changes`
     /// in the substep. Velocities and impulses then are those at its end.
     pub fn press(&mut self, fluids: &mut Fluids, changes: &[Twist], h: Real) {
@@ -234,11 +209,16 @@ impl Flow {
         for (wet, change) in self.touches.wet.iter_mut().zip(changes) {
             wet.twist += Twist::new(-change.linear, -change.angular);
         }
-        let parts = self.rates.iter().zip(&fluids.particles.compressions);
+        let parts = self.rates.iter().zip(&fluids.particles.compressions).zip(&self.diagonal);
+        let lightest = self.density.iter().copied().fold(Real::INFINITY, Real::min);
         self.target.clear();
-        self.target.extend(parts.map(|(rate, part)| {
+        self.target.extend(parts.map(|((rate, part), diagonal)| {
             let over = part - 1.0;
-            h * rate + if over > 0.0 { CORRECTION * over } else { (over + BAND).min(0.0) }
+            if over <= 0.0 {
+                return h * rate + (over + BAND).min(0.0);
+            }
+            let most = GENTLE * fluids.spacing * (diagonal * lightest).sqrt();
+            h * rate + (CORRECTION * over).min(most)
         }));
         let mut pressures = std::mem::take(&mut fluids.particles.pressures);
         self.solve(&mut pressures, fluids.area(), h);
@@ -254,6 +234,9 @@ impl Flow {
 
     /// Moves the particles.
     pub fn finish(&mut self, fluids: &mut Fluids, h: Real) {
+        if !self.held.is_empty() {
+            self.push(fluids, h);
+        }
         let particles = &mut fluids.particles;
         for (position, velocity) in particles.positions.iter_mut().zip(&particles.velocities) {
             *position += velocity * h;

@@ -67,6 +67,8 @@ impl Kernel {
 pub struct Lattice {
     /// Area that each particle stands for, over d²: 1/Σ W, so that the lattice is neither thin nor dense.
     pub area: Real,
+    /// The part of its kernel that a wall half a spacing before a particle fills, as it counts.
+    pub first: Real,
     /// What the square of the part of a kernel that a wall fills counts, so that the first row, half a spacing before it,
     /// is neither thin nor dense. The square, because pressure must resist the first row as it does a mirror image of it:
     /// the part itself grows half as fast, and then every second row of a lattice can sink without pressing on the others.
@@ -109,6 +111,7 @@ fn measure() -> Lattice {
     let missing = 1.0 - area * above;
     Lattice {
         area,
+        first: missing,
         wall: missing / (shore.part * shore.part),
         friction: area * half / (0.5 * shore.friction),
         shear: 1.0 / (area * shear),
@@ -151,7 +154,8 @@ mod tests {
 
     #[test]
     fn corrections_of_the_lattice_are_small() {
-        let Lattice { area, wall, friction, shear, pull } = *lattice();
+        let Lattice { area, first, wall, friction, shear, pull } = *lattice();
+        assert!((0.1..0.3).contains(&first), "{first}");
         assert!((area - 1.0).abs() < 2e-3, "{area}");
         assert!((shear - 1.0).abs() < 2e-2, "{shear}");
         assert!((4.0..4.5).contains(&wall), "{wall}");

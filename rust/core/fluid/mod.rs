@@ -8,6 +8,7 @@
 
 mod cells;
 mod flow;
+mod kept;
 mod kernel;
 mod pairs;
 mod particles;
@@ -15,13 +16,17 @@ mod pressure;
 mod read;
 mod shore;
 mod solid;
+mod streams;
 mod team;
+mod tension;
 mod viscosity;
 
 pub use flow::Flow;
+pub use kept::Kept;
 pub use particles::Particles;
 pub use pressure::Effort;
 pub use solid::Wet;
+pub use streams::{Inflow, Moving};
 pub use team::{MOST_THREADS, Team};
 
 use serde::{Deserialize, Serialize};
@@ -30,6 +35,7 @@ use crate::arena::{Arena, Handle, Named};
 use crate::error::{Error, Result, check};
 use crate::math::{Real, Twist, Vec2, cross};
 use crate::shapes::Shape;
+use streams::Streams;
 
 /// What names a fluid.
 pub type FluidHandle = Handle<Fluid>;
@@ -41,11 +47,17 @@ pub struct Material {
     pub density: Real,
     /// Viscosity (Pa·s).
     pub viscosity: Real,
+    /// Surface tension σ (N/m). Where two fluids meet, both pull.
+    #[serde(default)]
+    pub tension: Real,
+    /// Work of adhesion (N/m) to solids: σ(1 + cos θ) for a contact angle θ. Of fluids with surface tension.
+    #[serde(default)]
+    pub adhesion: Real,
 }
 
 impl Default for Material {
     fn default() -> Self {
-        Self { density: 1000.0, viscosity: 0.0 }
+        Self { density: 1000.0, viscosity: 0.0, tension: 0.0, adhesion: 0.0 }
     }
 }
 
@@ -53,6 +65,8 @@ impl Material {
     fn validated(self) -> Result<Self> {
         check::positive("density", self.density)?;
         check::not_negative("viscosity", self.viscosity)?;
+        check::not_negative("tension", self.tension)?;
+        check::not_negative("adhesion", self.adhesion)?;
         Ok(self)
     }
 }
@@ -64,6 +78,8 @@ pub struct Fluid {
     pub name: Option<String>,
     /// What it is made of.
     pub material: Material,
+    /// How long (s) its particles are there; none: for ever.
+    pub lifetime: Option<Real>,
 }
 
 impl Named for Fluid {
@@ -79,8 +95,12 @@ pub struct Fluids {
     pub particles: Particles,
     /// The fluids.
     pub list: Arena<Fluid>,
-    /// Number of the next particle.
-    next: u64,
+    /// Regions that remove particles.
+    drains: Vec<Shape>,
+    /// How particles come and go.
+    streams: Streams,
+    /// Energy (J) of the surfaces at the start of the last substep; none: not known.
+    pub surface: Option<Real>,
     /// Materials by the slots of the fluids' handles.
     table: Vec<Material>,
     /// What all but the fluids did to each body in the last substep, a second: what is expected of the next.
@@ -93,7 +113,9 @@ impl Default for Fluids {
             spacing: 0.0,
             particles: Particles::default(),
             list: Arena::default(),
-            next: 0,
+            drains: Vec::new(),
+            streams: Streams::default(),
+            surface: None,
             table: Vec::new(),
             others: Vec::new(),
         }
@@ -117,6 +139,14 @@ impl Fluids {
         &self.table
     }
 
+    /// The longest substep (s) that the shortest waves of the surfaces allow: 0.2 √(ρ d³/(2πσ)), a part of what Brackbill, Kothe
+    /// and Zemach give ("A continuum method for modeling surface tension", 1992).
+    fn longest_wave(&self) -> Real {
+        let each = self.list.values().iter().map(|fluid| &fluid.material);
+        let most = each.map(|material| material.tension / material.density).fold(0.0, Real::max);
+        0.2 * (self.spacing.powi(3) / (2.0 * crate::math::PI * most)).sqrt()
+    }
+
     /// Adds a fluid without particles.
     ///
     /// # Errors
@@ -134,7 +164,7 @@ impl Fluids {
             return Err(Error::invalid("spacing", spacing, allowed));
         }
         self.spacing = spacing;
-        let handle = self.list.insert(Fluid { name, material });
+        let handle = self.list.insert(Fluid { name, material, lifetime: None });
         let slot = handle.slot();
         self.table.resize(self.table.len().max(slot + 1), Material::default());
         self.table[slot] = material;
@@ -150,6 +180,16 @@ impl Fluids {
         let kind = fluid.slot() as u32;
         let kinds = self.particles.kinds.clone();
         self.particles.retain(|i| kinds[i] != kind);
+        self.forget_inflows(kind);
+        Ok(())
+    }
+
+    /// Gives a fluid another name, or none.
+    ///
+    /// # Errors
+    /// A handle to a fluid that is gone.
+    pub fn rename(&mut self, fluid: FluidHandle, name: Option<String>) -> Result<()> {
+        self.list.get_mut(fluid)?.name = name;
         Ok(())
     }
 
@@ -175,8 +215,8 @@ impl Fluids {
             check::finite_vec(&format!("points[{i}]"), *position)?;
         }
         for position in positions {
-            self.particles.push((*position, velocity), fluid.slot() as u32, self.next);
-            self.next += 1;
+            self.particles.push((*position, velocity), fluid.slot() as u32, self.streams.next);
+            self.streams.next += 1;
         }
         Ok(())
     }
@@ -193,6 +233,12 @@ impl Fluids {
     pub fn potential_energy(&self, gravity: Vec2) -> Real {
         let each = self.particles.kinds.iter().zip(&self.particles.positions);
         each.map(|(kind, x)| -self.particle_mass(*kind) * gravity.dot(x)).sum()
+    }
+
+    /// Kinetic energy and that in gravity (J).
+    #[must_use]
+    pub fn mechanical_energy(&self, gravity: Vec2) -> Real {
+        self.kinetic_energy() + self.potential_energy(gravity)
     }
 
     /// Σ m (kg).

@@ -133,6 +133,13 @@ impl Pairs {
         });
     }
 
+    /// Calls with both particles of each pair.
+    pub fn visit(&self, mut call: impl FnMut(usize, usize)) {
+        for chunk in &self.chunks[..self.used] {
+            chunk.pairs(|i, j, _| call(chunk.start + i, chunk.start + j));
+        }
+    }
+
     /// Runs `work` for each chunk with its part of a column: the even ones, then the odd ones.
     fn each<T: Send>(
         &self,

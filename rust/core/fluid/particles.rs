@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::math::{Real, Vec2};
 
 /// Columns of the particles. Their order changes from step to step; the identity of each does not.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Particles {
     /// Positions (m).
     pub positions: Vec<Vec2>,
@@ -21,6 +21,25 @@ pub struct Particles {
     pub kinds: Vec<u32>,
     /// Which particle it is; younger ones have higher numbers.
     pub ids: Vec<u64>,
+}
+
+impl Clone for Particles {
+    fn clone(&self) -> Self {
+        let mut copy = Self::default();
+        copy.clone_from(self);
+        copy
+    }
+
+    /// Without allocation where there is room.
+    fn clone_from(&mut self, other: &Self) {
+        self.positions.clone_from(&other.positions);
+        self.velocities.clone_from(&other.velocities);
+        self.pressures.clone_from(&other.pressures);
+        self.relaxing.clone_from(&other.relaxing);
+        self.compressions.clone_from(&other.compressions);
+        self.kinds.clone_from(&other.kinds);
+        self.ids.clone_from(&other.ids);
+    }
 }
 
 impl Particles {

@@ -134,7 +134,7 @@ impl Coupling<'_> {
             self.apply(q, (against, loads), image);
             effort.iterations += 1;
             let (along, curve) = dots(g, q, image);
-            if curve.is_nan() || curve <= 0.0 {
+            if curve.is_nan() || curve <= FLAT * size(q, d) {
                 break;
             }
             let step = along / curve;
@@ -228,6 +228,15 @@ fn restart(q: &mut [Real], p: &[Real], g: &[Real], d: &[Real]) {
     for (((q, p), g), d) in q.iter_mut().zip(p).zip(g).zip(d) {
         *q = if *p > 0.0 && *d > 0.0 { g / d } else { 0.0 };
     }
+}
+
+/// Curvature, over that of the diagonal, below which a direction presses on nothing: where there is no free surface, the same
+/// pressure everywhere. The smoothest of n rows have 2/n².
+const FLAT: Real = 1e-10;
+
+/// q·D q.
+fn size(q: &[Real], d: &[Real]) -> Real {
+    q.iter().zip(d).map(|(q, d)| q * q * d).sum()
 }
 
 fn dots(g: &[Real], q: &[Real], image: &[Real]) -> (Real, Real) {

@@ -1,11 +1,12 @@
 //! Scene files: a world as readable JSON. `docs/scene-files.md` is the guide, `docs/scene.schema.json`
 //! the schema.
 //!
-//! What is to come (fluids) comes as further lists beside `bodies`, as deformable bodies did, each empty by
+//! Lists beside `bodies` came later (deformable bodies, fluids), each empty by
 //! default. A file that does without them stays as it is, so the version stays 1; it changes only when
 //! something that stands in files today gets another meaning.
 
 mod body;
+mod fluid;
 mod from_world;
 mod joint;
 mod soft;
@@ -19,13 +20,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use body::{SceneBody, ScenePart};
+pub use fluid::{SceneFill, SceneFluid};
 pub use joint::{SceneJoint, SceneJointState};
 pub use soft::{SceneSoft, SceneSoftState};
 
 use crate::body::{Friction, ImpactLaw, Mixing};
 use crate::error::{Error, Result};
+use crate::fluid::Kept;
 use crate::forces::{Air, Attraction, Central};
 use crate::math::{Real, Vec2, vec2};
+use crate::shapes::Shape;
 use crate::solvers::Solver;
 use crate::world::Settings;
 
@@ -90,6 +94,16 @@ pub struct SceneFile {
     /// What ties bodies together, in the order of the world's joints.
     #[serde(default)]
     pub joints: Vec<SceneJoint>,
+    /// The fluids, in the order of the world's.
+    #[serde(default)]
+    pub fluids: Vec<SceneFluid>,
+    /// Regions, in the frame of the world, that remove the particles which enter them.
+    #[serde(default)]
+    pub drains: Vec<Shape>,
+    /// What the fluids know beyond the places and velocities of their particles. Programs write it, so that a world goes on
+    /// to the bit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub flow: Option<Kept>,
     /// Forces that are constant between given times.
     #[serde(default)]
     pub schedules: Vec<SceneSchedule>,
@@ -254,6 +268,9 @@ impl Default for SceneFile {
             bodies: Vec::new(),
             soft_bodies: Vec::new(),
             joints: Vec::new(),
+            fluids: Vec::new(),
+            drains: Vec::new(),
+            flow: None,
             schedules: Vec::new(),
             fields: Vec::new(),
         }

@@ -1,7 +1,7 @@
 //! What a call or a step changes, kept to go back to.
 
 use crate::arena::Arena;
-use crate::fluid::Fluids;
+use crate::fluid::Moving;
 use crate::forces::Ledger;
 use crate::joint::Joint;
 use crate::math::{Pose, Real, Twist, Wrench};
@@ -34,7 +34,7 @@ pub(super) struct Backup {
     /// The joints, where one may break.
     breakable: Option<Arena<Joint>>,
     /// The fluids, where there are any.
-    fluids: Fluids,
+    fluids: Moving,
 }
 
 /// The moving part of a world at the start of a step, to take the step again.
@@ -134,7 +134,7 @@ impl Backup {
     #[cold]
     #[inline(never)]
     fn save_fluids(&mut self, state: &State) {
-        self.fluids.clone_from(&state.fluids);
+        self.fluids.save(&state.fluids);
     }
 
     /// Puts the state back, and says whether forces wait for the next step.
@@ -162,7 +162,7 @@ impl Backup {
         state.softs.events.clear();
         // A call that moves the world adds and removes no fluid.
         if !state.fluids.list.values().is_empty() {
-            state.fluids.clone_from(&self.fluids);
+            self.fluids.restore(&mut state.fluids);
         }
         state.contacts.touching.set_changes(&self.changes);
         state.contacts.retell(state.bodies.handles());

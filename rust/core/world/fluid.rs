@@ -5,7 +5,7 @@ use super::plan::Meeting;
 use super::step::MOST_TRIES;
 use crate::body::{Bodies, BodyHandle};
 use crate::error::{Error, Result, check};
-use crate::fluid::{Flow, FluidHandle, Fluids, Material, Particles, Team};
+use crate::fluid::{Flow, FluidHandle, Fluids, Material, Moving, Team};
 use crate::math::{Real, Twist, Vec2, Wrench};
 use crate::methods::Span;
 use crate::world::{State, World};
@@ -21,7 +21,7 @@ pub(super) struct WetScratch {
     /// Before the substep at work.
     start: Start,
     /// Before the step at work.
-    particles: Particles,
+    moving: Moving,
     /// Steady forces on bodies without those of the fluid.
     dry: Vec<Wrench>,
     /// The same that is expected in this substep, of each wet body.
@@ -77,10 +77,17 @@ impl World {
         for (i, point) in points.iter().enumerate() {
             check::finite_vec(&format!("points[{i}]"), *point)?;
         }
-        let fluid = self.state.fluids.add(None, material, spacing)?;
-        self.state.fluids.pour(fluid, points, Vec2::zeros())?;
-        self.plan = None;
+        let fluids = self.fluids_mut();
+        let fluid = fluids.add(None, material, spacing)?;
+        fluids.pour(fluid, points, Vec2::zeros())?;
         Ok(fluid)
+    }
+
+    /// Energy (J) of the surfaces of fluids: at the start of the last substep, or now if the fluids were changed since.
+    #[must_use]
+    pub fn surface_energy(&self) -> Real {
+        let State { fluids, bodies, .. } = &self.state;
+        fluids.surface.unwrap_or_else(|| Flow::default().surface_energy(fluids, bodies))
     }
 
     /// Removes a fluid with all its particles.
@@ -88,7 +95,7 @@ impl World {
     /// # Errors
     /// A handle to a fluid that is gone.
     pub fn remove_fluid(&mut self, fluid: FluidHandle) -> Result<()> {
-        self.state.fluids.remove(fluid)?;
+        self.fluids_mut().remove(fluid)?;
         self.plan = None;
         Ok(())
     }
@@ -102,6 +109,7 @@ impl World {
     /// The fluids, to change.
     pub fn fluids_mut(&mut self) -> &mut Fluids {
         self.plan = None;
+        self.state.fluids.surface = None;
         &mut self.state.fluids
     }
 
@@ -155,7 +163,7 @@ impl World {
             self.detect_and_split(dt)?;
             if let Some(plan) = &self.plan {
                 self.scratch.start.save(&self.state, plan);
-                self.scratch.wet.particles.clone_from(&self.state.fluids.particles);
+                self.scratch.wet.moving.save(&self.state.fluids);
             }
             let wet = &mut self.scratch.wet;
             wet.impulses.clear();
@@ -167,7 +175,7 @@ impl World {
                 break;
             }
             self.scratch.start.restore(&mut self.state);
-            self.state.fluids.particles.clone_from(&self.scratch.wet.particles);
+            self.scratch.wet.moving.restore(&mut self.state.fluids);
             self.state.contacts.spread_out(&self.scratch.contacts.thrown);
             self.events.hit.truncate(hits);
         }
@@ -220,8 +228,7 @@ impl World {
     fn wade_part(&mut self, span: Span, dry: &[Wrench]) -> Result<()> {
         let h = span.duration;
         let gravity = self.state.settings.gravity;
-        let before =
-            self.state.fluids.kinetic_energy() + self.state.fluids.potential_energy(gravity);
+        let before = self.state.fluids.mechanical_energy(gravity);
         self.state.contacts.scale_impulses(h);
         let mut start = std::mem::take(&mut self.scratch.wet.start);
         if let Some(plan) = &self.plan {
@@ -229,6 +236,7 @@ impl World {
         }
         let State { fluids, bodies, .. } = &mut self.state;
         let WetScratch { flow, accelerator, .. } = &mut self.scratch.wet;
+        let surface = fluids.surface;
         flow.begin(fluids, bodies, (gravity, h));
         accelerator.begin();
         self.expect(dry, h);
@@ -249,12 +257,20 @@ impl World {
         self.book(&start, h);
         self.scratch.wet.start = start;
         result?;
+        let State { fluids, ledger, .. } = &mut self.state;
         let WetScratch { flow, .. } = &mut self.scratch.wet;
-        flow.finish(&mut self.state.fluids, h);
-        let after =
-            self.state.fluids.kinetic_energy() + self.state.fluids.potential_energy(gravity);
-        self.state.ledger.dissipated += before - after;
-        let effort = std::mem::take(&mut self.scratch.wet.flow.effort);
+        flow.finish(fluids, h);
+        let after = fluids.mechanical_energy(gravity);
+        if let (Some(before), Some(now)) = (surface, fluids.surface) {
+            ledger.dissipated += before - now;
+        }
+        ledger.work += flow.work;
+        ledger.dissipated += before - after + flow.work;
+        if fluids.streams() {
+            fluids.exchange(h, span.end);
+            ledger.work += fluids.mechanical_energy(gravity) - after;
+        }
+        let effort = std::mem::take(&mut flow.effort);
         self.report.solves += u64::from(effort.iterations);
         self.report.steps += 1;
         self.report.smallest_step = self.report.smallest_step.min(h);

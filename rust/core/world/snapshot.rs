@@ -31,7 +31,7 @@ struct Stored {
 }
 
 /// Changes with the layout of [`State`].
-const VERSION: u32 = 10;
+const VERSION: u32 = 11;
 
 impl World {
     /// Keeps the world as it is.

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{
-    BodyLabel, Material, SceneBody, SceneField, SceneFile, SceneJoint, SceneOscillating,
-    SceneSchedule, SceneSettings, SceneSoft, soft, wrong,
+    BodyLabel, Material, SceneBody, SceneField, SceneFile, SceneFluid, SceneJoint,
+    SceneOscillating, SceneSchedule, SceneSettings, SceneSoft, soft, wrong,
 };
 use crate::body::{BodyHandle, Info};
 use crate::error::Result;
@@ -20,7 +20,7 @@ impl SceneFile {
     ///
     /// # Errors
     /// [`crate::Error::SceneFile`] for what a file cannot hold: a field that is the user's own code or
-    /// acts on a body that is gone, fluids, and forces that wait for the next step only.
+    /// acts on a body that is gone, and forces that wait for the next step only.
     pub fn from_world(world: &World) -> Result<Self> {
         let bodies = world.bodies();
         if let Some(i) = bodies.applied.iter().position(|wrench| *wrench != Wrench::ZERO) {
@@ -28,12 +28,9 @@ impl SceneFile {
                            step first, or give the body a constant force";
             return Err(wrong(format!("bodies[{i}]"), message));
         }
-        if !world.fluids().list.values().is_empty() {
-            let message = "a scene file cannot hold a fluid; a snapshot or a pickle can";
-            return Err(wrong("fluids".to_owned(), message));
-        }
         let settings = world.settings();
         let (time, time_remainder) = world.clock();
+        let fluids = world.fluids().list.handles();
         let fields = world.fields().iter().enumerate();
         Ok(Self {
             gravity: settings.gravity,
@@ -45,6 +42,9 @@ impl SceneFile {
             bodies: (0..bodies.len()).map(|i| body(world, i)).collect(),
             soft_bodies: world.soft_bodies().iter().map(SceneSoft::from).collect(),
             joints: joints(world)?,
+            fluids: fluids.iter().map(|own| SceneFluid::of(world, *own)).collect::<Result<_>>()?,
+            drains: world.fluids().drains().to_vec(),
+            flow: (!fluids.is_empty()).then(|| world.fluids().kept()),
             schedules: world
                 .schedules()
                 .iter()

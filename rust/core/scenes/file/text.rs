@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
 use super::{
-    SCENE_VERSION, SceneBody, SceneFile, SceneJoint, SceneOscillating, SceneSettings, SceneSoft,
-    wrong,
+    SCENE_VERSION, SceneBody, SceneFile, SceneFluid, SceneJoint, SceneOscillating, SceneSettings,
+    SceneSoft, wrong,
 };
 use crate::error::{Error, Result};
 
@@ -87,6 +87,10 @@ pub fn to_json(scene: &SceneFile) -> String {
         leave_out(joint, &usual, &["bodies", "joint"]);
         leave_out_within(joint, &usual, &["state"]);
         leave_out_of_joint(joint);
+    }
+    let usual = object(&SceneFluid::default());
+    for fluid in objects(&mut file, "fluids") {
+        leave_out(fluid, &usual, &["spacing"]);
     }
     for schedule in objects(&mut file, "schedules") {
         schedule.retain(|_, value| *value != Value::Array(Vec::new()));

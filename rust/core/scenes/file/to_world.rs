@@ -32,6 +32,7 @@ impl SceneFile {
         for (i, joint) in self.joints.iter().enumerate() {
             self.add_joint(&mut world, (&bodies, &softs), (i, joint))?;
         }
+        self.add_fluids(&mut world)?;
         for (i, schedule) in self.schedules.iter().enumerate() {
             let path = format!("schedules[{i}]");
             let body = self.find(&schedule.body, &bodies, &format!("{path}.body"))?;
@@ -114,6 +115,19 @@ impl SceneFile {
             .map_err(|error| joint.wrong(&path, &error))?;
         let made = world.joint_mut(made).map_err(at(&path))?;
         joint.state.resume(made, &format!("{path}.state"))
+    }
+
+    fn add_fluids(&self, world: &mut World) -> Result<()> {
+        for (i, fluid) in self.fluids.iter().enumerate() {
+            fluid.add(world, &format!("fluids[{i}]"))?;
+        }
+        if !self.drains.is_empty() {
+            world.fluids_mut().set_drains(self.drains.clone());
+        }
+        let bodies = world.bodies().len();
+        self.flow
+            .as_ref()
+            .map_or(Ok(()), |kept| world.fluids_mut().resume(kept, bodies).map_err(at("flow")))
     }
 
     /// The shapes of a body with their materials looked up.
@@ -220,7 +234,7 @@ impl SceneSchedule {
 }
 
 /// An error of the engine's as one about a path: that of the field it names, where it names one.
-fn at(path: &str) -> impl Fn(Error) -> Error + '_ {
+pub(super) fn at(path: &str) -> impl Fn(Error) -> Error + '_ {
     move |error| {
         let field = match &error {
             Error::Invalid { what, .. } if is_key(what) => what.as_str(),

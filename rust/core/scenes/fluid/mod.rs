@@ -59,7 +59,7 @@ pub static COLUMN: Scene = Scene {
 fn column() -> Result<Vec<Number>> {
     const ROWS: Real = 40.0;
     let (mut world, floor) = tank(1.0)?;
-    let material = Material { density: WATER, viscosity: 2.0 };
+    let material = Material { density: WATER, viscosity: 2.0, ..Material::default() };
     world.add_fluid(&block(vec2(1.0, 1.0), 1.0 / ROWS)?, 1.0 / ROWS, material)?;
     world.steps(DT, 150)?;
     let mut force = 0.0;
@@ -97,7 +97,11 @@ fn floating() -> Result<Vec<Number>> {
         let bottom = level - s * height;
         let mut points = block(vec2(1.2, level), SPACING)?;
         points.retain(|p| (p.x - 0.6).abs() > 0.5 * width || p.y < bottom);
-        world.add_fluid(&points, SPACING, Material { density: WATER, viscosity: 5.0 })?;
+        world.add_fluid(
+            &points,
+            SPACING,
+            Material { density: WATER, viscosity: 5.0, ..Material::default() },
+        )?;
         let float = BodyDef {
             position: vec2(0.6, bottom + 0.5 * height),
             density: s * WATER,
@@ -135,7 +139,11 @@ fn rising() -> Result<Vec<Number>> {
         let (mut world, _) = tank(2.0)?;
         let mut points = block(vec2(2.0, 1.2), SPACING)?;
         points.retain(|p| (p - center).norm() > radius + 0.5 * SPACING);
-        world.add_fluid(&points, SPACING, Material { density: WATER, viscosity: 0.5 })?;
+        world.add_fluid(
+            &points,
+            SPACING,
+            Material { density: WATER, viscosity: 0.5, ..Material::default() },
+        )?;
         let held = BodyDef {
             kind: BodyKind::Static,
             position: center,
@@ -177,7 +185,11 @@ fn dam() -> Result<Vec<Number>> {
     let spacing = width / rows;
     let (mut world, _) = tank(3.0)?;
     let points = block(vec2(width, 2.0 * width), spacing)?;
-    world.add_fluid(&points, spacing, Material { density: WATER, viscosity: 0.0 })?;
+    world.add_fluid(
+        &points,
+        spacing,
+        Material { density: WATER, viscosity: 0.0, ..Material::default() },
+    )?;
     let mut numbers = Vec::new();
     for (time, exact) in FRONT {
         let end = time / (2.0 * G / width).sqrt();
@@ -215,7 +227,11 @@ fn momentum() -> Result<Vec<Number>> {
     world.add_body(disk)?;
     let mut points = lattice_in(&between(vec2(-0.4, -0.4), vec2(0.4, 0.4))?, SPACING)?;
     points.retain(|p| p.norm() > 0.15 + 0.5 * SPACING);
-    world.add_fluid(&points, SPACING, Material { density: WATER, viscosity: 0.0 })?;
+    world.add_fluid(
+        &points,
+        SPACING,
+        Material { density: WATER, viscosity: 0.0, ..Material::default() },
+    )?;
     let (before, spin) = (world.momentum(), world.angular_momentum(Vec2::zeros()));
     world.steps(DT, 60)?;
     let change = (world.momentum() - before).norm() / before.norm();

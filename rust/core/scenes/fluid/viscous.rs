@@ -27,7 +27,7 @@ fn channel(gravity: Real, moved: Real) -> Result<World> {
         world.add_body(BodyDef { kind: BodyKind::Kinematic, velocity, ..BodyDef::new(plate) })?;
     }
     let points = lattice_in(&between(vec2(0.0, 0.0), vec2(LENGTH, GAP))?, GAP / ROWS)?;
-    let material = Material { density: WATER, viscosity: NU * WATER };
+    let material = Material { density: WATER, viscosity: NU * WATER, ..Material::default() };
     world.add_fluid(&points, GAP / ROWS, material)?;
     Ok(world)
 }
