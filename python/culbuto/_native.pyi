@@ -3006,6 +3006,12 @@ def study(
 def measured_order(name: str, method: str) -> str:
     """The order of a method on a scene."""
 
+def hard_scenes() -> list[tuple[str, str]]:
+    """Numbers and names of the hard scenes."""
+
+def stability_of(name: str, rates: Sequence[float]) -> str:
+    """How a hard scene ends by each solver, at these numbers of steps a second."""
+
 def thrown_ball(methods: Sequence[str], ticks: Sequence[int]) -> str:
     """Paths of a thrown ball."""
 

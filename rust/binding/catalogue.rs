@@ -4,7 +4,8 @@
 #![allow(clippy::needless_pass_by_value, reason = "as PyO3 hands them")]
 
 use culbuto::methods;
-use culbuto::report::{self, Order, Study};
+use culbuto::report::{self, Order, Study, stability};
+use culbuto::scenes::hard::HARD;
 use culbuto::scenes::{Answer, CATALOGUE, Motion, Scene, scene};
 use culbuto::world::Trajectory;
 use culbuto::{error::Result, math};
@@ -78,6 +79,23 @@ pub fn study(
     let (steps, tolerances) = ladders;
     let what = Study { steps, tolerances, methods, repeats };
     json_of(py, || Ok(json!(report::study(scene(name)?, &what)?)))
+}
+
+/// Numbers and names of the hard scenes.
+#[pyfunction]
+pub fn hard_scenes() -> Vec<(&'static str, &'static str)> {
+    HARD.iter().map(|hard| (hard.id, hard.name)).collect()
+}
+
+/// How a hard scene ends by each of Culbuto's solvers at these numbers of steps a second; none: the usual ones.
+#[pyfunction]
+pub fn stability_of(py: Python<'_>, name: &str, rates: Vec<f64>) -> PyResult<String> {
+    let rates = if rates.is_empty() { stability::RATES.to_vec() } else { rates };
+    let hard = HARD.iter().find(|hard| hard.name == name).ok_or_else(|| {
+        let names: Vec<_> = HARD.iter().map(|hard| hard.name).collect();
+        to_py(culbuto::Error::invalid("hard scene", format!("{name:?}"), names.join(", ")))
+    })?;
+    json_of(py, || Ok(json!(stability::line(hard, &rates)?)))
 }
 
 /// The order of a method on a scene: {"slope": number or null, "exact": true or false}.

@@ -59,8 +59,8 @@ mod culbuto_native {
     use crate::builders::{bridge, chain, lattice, ragdoll, rope, vehicle};
     #[pymodule_export]
     use crate::catalogue::{
-        catalogue, exact_motion, measured_order, open_scene, scene_error, study, thrown_ball,
-        verify,
+        catalogue, exact_motion, hard_scenes, measured_order, open_scene, scene_error,
+        stability_of, study, thrown_ball, verify,
     };
     #[pymodule_export]
     use crate::contacts::{Contact, ContactEvent, ContactEvents, Contacts, Events};

@@ -25,7 +25,7 @@ def cell(engine: str, rate: int, verdict: str, figure: float | None) -> dict[str
     square = [[0, 0], [1, 0], [1, 1], [0, 1]]
     picture = [square, [[-20, -1], [20, -1], [20, 0], [-20, 0]]] if rate == 60 else None
     return {
-        "scene": "stack", "engine": engine, "step": 1 / rate, "verdict": verdict,
+        "engine": engine, "step": 1 / rate, "verdict": verdict,
         "figure": figure, "picture": picture,
     }  # fmt: skip
 
@@ -44,20 +44,19 @@ FOUND = {
         row("pymunk", "50 iterations", 0.1, 0.3, 1e-5),
     ],
     "left_out": [{"scene": "kepler", "why": "a field acts"}],
-    "stability": {
-        "scenes": [
-            {
-                "name": "stack", "about": "squares", "seconds": 10,
-                "figure": "largest way over its size",
-            }
-        ],
-        "cells": [
-            cell("culbuto", 30, "right", 1e-3), cell("culbuto", 60, "right", 1e-3),
-            cell("culbuto", 120, "right", 1e-4), cell("box2d", 30, "right", 1e-3),
-            cell("box2d", 60, "creeps", 0.1), cell("box2d", 120, "right", 1e-3),
-            cell("pymunk", 60, "nan", None),
-        ],
-    },
+    "missing": [["box2d-2", "no such module"]],
+    "stability": [
+        {
+            "id": "K1", "name": "stack of 20", "about": "squares", "seconds": 10,
+            "figure": "largest way over its size", "left_out": None,
+            "cells": [
+                cell("culbuto", 30, "right", 1e-3), cell("culbuto", 60, "right", 1e-3),
+                cell("culbuto", 120, "right", 1e-4), cell("box2d", 30, "right", 1e-3),
+                cell("box2d", 60, "creeps", 0.1), cell("box2d", 120, "right", 1e-3),
+                cell("pymunk", 60, "nan", None),
+            ],
+        },
+    ],
 }  # fmt: skip
 
 
@@ -113,11 +112,13 @@ def test_the_page_has_them_and_says_who_is_missing(file: Path, tmp_path: Path) -
     results = measure([find("projectile"), find("kepler")], quick=True)
     alone, _ = write_page(results, tmp_path / "alone")
     assert "make report-peers" in alone.read_text("utf-8")
-    together = replace(results, peers=Peers.read(file))
+    peers = Peers.read(file)
+    together = replace(results, peers=peers, stability=peers.stability)
     page, _ = write_page(together, tmp_path / "together")
     text = page.read_text("utf-8")
     assert "Without other engines: a field acts." in text
     assert "Box2D 3" in text
+    assert "Left out: Box2D 2 (no such module)" in text
     assert 'id="stability"' in text
     assert "1 substep" in text
     _, data = write_rows(together, tmp_path)

@@ -2,9 +2,9 @@
 
 mod box2d;
 mod culbuto;
-mod pymunk;
 mod rapier_double;
 mod rapier_single;
+mod worker;
 
 use std::ops::Range;
 use std::time::Duration;
@@ -111,20 +111,32 @@ fn native<E: Engine + 'static>(name: &'static str, package: &'static str) -> Box
 /// Culbuto with all rows of a group solved at once.
 pub const AT_ONCE: &str = "culbuto-newton";
 
-/// Name of an entrant, and how it is made; `python` is an interpreter that has pymunk.
+/// Box2D 2, which takes part only in studies.
+pub const BOX2D_2: &str = "box2d-2";
+
+/// Entrants that divide no step, but iterate.
+pub const ITERATE: [&str; 2] = ["pymunk", BOX2D_2];
+
+/// Entrants that are Python packages.
+pub const PYTHON: [&str; 2] = ITERATE;
+
+/// Whether it is Culbuto.
+pub fn is_own(name: &str) -> bool {
+    name.starts_with("culbuto")
+}
+
+/// Name of an entrant, and how it is made; `python` is an interpreter that has those of Python.
 type Maker = (&'static str, fn(python: Option<&str>) -> Result<Box<dyn Entrant>>);
 
 /// All entrants; times are compared with those of the first.
-pub const ALL: [Maker; 6] = [
+pub const ALL: [Maker; 7] = [
     ("culbuto", |_| Ok(native::<culbuto::Culbuto<false>>("culbuto", "culbuto"))),
     (AT_ONCE, |_| Ok(native::<culbuto::Culbuto<true>>(AT_ONCE, "culbuto"))),
     ("rapier-f64", |_| Ok(native::<rapier_double::adapter::Rapier>("rapier-f64", "rapier2d-f64"))),
     ("rapier-f32", |_| Ok(native::<rapier_single::adapter::Rapier>("rapier-f32", "rapier2d"))),
     ("box2d", |_| Ok(native::<box2d::Box2d>("box2d", "boxdd"))),
-    ("pymunk", |python| {
-        let python = python.ok_or("pymunk needs --python, an interpreter that has it")?;
-        Ok(Box::new(pymunk::Worker::new("pymunk", python)?))
-    }),
+    (BOX2D_2, |python| Ok(Box::new(worker::Worker::new(BOX2D_2, "box2d_race.py", python)?))),
+    ("pymunk", |python| Ok(Box::new(worker::Worker::new("pymunk", "pymunk_race.py", python)?))),
 ];
 
 /// Names and versions.

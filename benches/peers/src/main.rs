@@ -38,7 +38,7 @@ struct Args {
     /// At most so many steps a run.
     #[arg(long, value_parser = clap::value_parser!(u32).range(2..))]
     steps: Option<u32>,
-    /// A Python interpreter that has pymunk.
+    /// A Python interpreter that has pymunk, and for studies box2d.
     #[arg(long)]
     python: Option<String>,
     /// File for all numbers, in JSON.
@@ -70,18 +70,38 @@ fn scenes(args: &Args) -> Result<Vec<Scene>> {
     Ok(scenes)
 }
 
-fn entrants(args: &Args) -> Result<Vec<Box<dyn Entrant>>> {
+/// Names of entrants that could not be had, and why.
+type Missing = Vec<(&'static str, String)>;
+
+/// Those who take part. Packages of Python that are not installed are missing, unless they were asked for.
+fn entrants(args: &Args) -> Result<(Vec<Box<dyn Entrant>>, Missing)> {
     let makers = chosen(engines::ALL.to_vec(), &args.engines, |maker| maker.0)?;
-    // Without Python pymunk takes part only if it is asked for, and then says what it needs.
+    // Without Python its engines take part only if they are asked for, and then say what they need.
     let can = |name: &str| match name {
         _ if !args.engines.is_empty() => true,
-        "pymunk" => args.python.is_some(),
         // It races only when asked: it is for what falls by sweeps.
-        engines::AT_ONCE => args.study,
-        _ => true,
+        engines::AT_ONCE => false,
+        engines::BOX2D_2 => args.study && args.python.is_some(),
+        _ => args.python.is_some() || !engines::PYTHON.contains(&name),
     };
     let able = makers.into_iter().filter(|(name, _)| can(name));
-    able.map(|(_, make)| make(args.python.as_deref())).collect()
+    let mut entrants = Vec::new();
+    let mut missing = Vec::new();
+    for (name, make) in able {
+        let made = make(args.python.as_deref()).and_then(|mut made| {
+            made.version()?;
+            Ok(made)
+        });
+        match made {
+            Ok(made) => entrants.push(made),
+            Err(error) if engines::PYTHON.contains(&name) && args.engines.is_empty() => {
+                writeln!(stderr(), "without {name}: {error}")?;
+                missing.push((name, error.to_string()));
+            }
+            Err(error) => return Err(error),
+        }
+    }
+    Ok((entrants, missing))
 }
 
 /// The processor's name where the system tells it, and the number of processors.
@@ -100,13 +120,13 @@ fn build() -> String {
 
 fn main() -> Result<()> {
     let args = Args::parse();
-    let mut entrants = entrants(&args)?;
+    let (mut entrants, missing) = entrants(&args)?;
     if let Some(path) = args.json.as_ref().filter(|_| args.study) {
         let (rows, left_out) = study::run(&args.scenes, &mut entrants, &mut stderr())?;
         let versions = engines::versions(&mut entrants)?;
         let stability = stability::run(&mut entrants, &mut stderr())?;
         let (machine, build) = (machine(), build());
-        let found = study::Study { versions, machine, build, rows, left_out, stability };
+        let found = study::Study { versions, missing, machine, build, rows, left_out, stability };
         return Ok(fs::write(path, serde_json::to_string_pretty(&found)?)?);
     }
     let mut report = Report {

@@ -27,6 +27,15 @@ pub enum Shape {
         /// Its corners.
         vertices: Vec<Vec2>,
     },
+    /// All points within a radius of a line.
+    Capsule {
+        /// One end of the line.
+        a: Vec2,
+        /// The other.
+        b: Vec2,
+        /// The radius.
+        radius: Real,
+    },
     /// A line without thickness.
     Segment {
         /// One end.
@@ -47,7 +56,7 @@ impl Shape {
         Self::Circle { center: vec2(0.0, 0.0), radius }
     }
 
-    /// Corners, counter-clockwise: one for a disk, two for a segment.
+    /// Corners, counter-clockwise: one for a disk, two for a segment and a capsule.
     pub fn corners(&self) -> Vec<Vec2> {
         match self {
             Self::Circle { center, .. } => vec![*center],
@@ -55,13 +64,40 @@ impl Shape {
                 .map(|(x, y)| center + vec2(x * half.x, y * half.y))
                 .to_vec(),
             Self::Polygon { vertices } => vertices.clone(),
-            Self::Segment { a, b } => vec![*a, *b],
+            Self::Segment { a, b } | Self::Capsule { a, b, .. } => vec![*a, *b],
+        }
+    }
+
+    /// Divides all lengths.
+    fn divide(&mut self, unit: Real) {
+        match self {
+            Self::Circle { center, radius } => {
+                *center /= unit;
+                *radius /= unit;
+            }
+            Self::Box { center, half } => {
+                *center /= unit;
+                *half /= unit;
+            }
+            Self::Polygon { vertices } => vertices.iter_mut().for_each(|p| *p /= unit),
+            Self::Capsule { a, b, radius } => {
+                *a /= unit;
+                *b /= unit;
+                *radius /= unit;
+            }
+            Self::Segment { a, b } => {
+                *a /= unit;
+                *b /= unit;
+            }
         }
     }
 
     /// How far the shape reaches beyond the hull of its corners.
     pub fn radius(&self) -> Real {
-        if let Self::Circle { radius, .. } = self { *radius } else { 0.0 }
+        match self {
+            Self::Circle { radius, .. } | Self::Capsule { radius, .. } => *radius,
+            _ => 0.0,
+        }
     }
 }
 
@@ -165,8 +201,6 @@ pub enum Region {
     Everywhere,
     /// Above this height (m).
     Above(Real),
-    /// Left of this x (m).
-    LeftOf(Real),
     /// In this disk.
     Disk {
         /// Its centre.
@@ -182,7 +216,6 @@ impl Region {
         match *self {
             Self::Everywhere => point.x.is_finite() && point.y.is_finite(),
             Self::Above(height) => point.x.is_finite() && point.y > height,
-            Self::LeftOf(x) => point.x < x,
             Self::Disk { center, radius } => (point - center).norm() < radius,
         }
     }
@@ -223,9 +256,28 @@ pub struct Scene {
     pub swing: Option<Swing>,
     /// Where bodies belong.
     pub region: Region,
+    /// Usual length (m) for engines that ask for one; none: theirs.
+    pub size: Option<Real>,
 }
 
 impl Scene {
+    /// The same scene with its lengths in another unit (m); masses are the same.
+    pub fn in_units_of(&self, unit: Real) -> Self {
+        let mut scene = self.clone();
+        scene.gravity /= unit;
+        for body in &mut scene.bodies {
+            body.position /= unit;
+            body.velocity /= unit;
+            body.density *= unit * unit;
+            body.shapes.iter_mut().for_each(|shape| shape.divide(unit));
+        }
+        for joint in &mut scene.joints {
+            joint.anchors = joint.anchors.map(|anchor| anchor / unit);
+            joint.distance = joint.distance.map(|length| length / unit);
+        }
+        scene
+    }
+
     /// How many bodies are moved by forces.
     pub fn dynamic(&self) -> usize {
         self.bodies.iter().filter(|body| body.kind == BodyKind::Dynamic).count()

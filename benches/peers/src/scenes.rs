@@ -2,7 +2,6 @@
 //! of Box2D 3.2), with two differences: friction is 0.6 everywhere, and the tumbler's frame turns by
 //! itself instead of by a motor. The pentagons of the junkyard are regular.
 
-pub mod hard;
 mod jointed;
 
 use std::f64::consts::{PI, TAU};
@@ -52,6 +51,7 @@ fn scene(name: &'static str, about: &'static str, bodies: Vec<Body>) -> Scene {
         sleeping: true,
         swing: None,
         region: Region::Above(0.0),
+        size: None,
     }
 }
 

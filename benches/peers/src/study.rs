@@ -3,14 +3,14 @@
 use std::io::Write;
 
 use culbuto::math::{Pose, Real};
+use culbuto::report::stability::Line;
 use culbuto::scenes::{Answer, CATALOGUE, Motion};
 use culbuto::world::{Trajectory, World};
 use serde::Serialize;
 
 use crate::Result;
-use crate::engines::{Entrant, State};
+use crate::engines::{self, Entrant, State};
 use crate::scene::Scene;
-use crate::stability::Matrix;
 use crate::translate::translate;
 
 /// One run of one scene by one engine.
@@ -41,6 +41,8 @@ pub struct LeftOut {
 pub struct Study {
     /// Names and versions of the engines.
     pub versions: Vec<(String, String)>,
+    /// Engines that could not be had, and why.
+    pub missing: Vec<(&'static str, String)>,
     /// What it ran on, and how it was built.
     pub machine: String,
     /// See [`machine`](Self::machine).
@@ -50,7 +52,7 @@ pub struct Study {
     /// Scenes without runs.
     pub left_out: Vec<LeftOut>,
     /// Hard scenes.
-    pub stability: Matrix,
+    pub stability: Vec<Line>,
 }
 
 /// Substeps of engines that have them, the default first; iterations of those that have not.
@@ -87,6 +89,7 @@ pub fn run(
         match translate(scene.name, scene.title, &world) {
             Err(why) => left_out.push(LeftOut { scene: scene.name, why }),
             Ok(mut declared) => {
+                declared.size = Some(usual_size(&world).unwrap_or(motion.length));
                 write!(progress, "{} ", scene.name)?;
                 for entrant in &mut *entrants {
                     ladder(&mut declared, (&motion, &world), entrant.as_mut(), &mut rows)?;
@@ -100,6 +103,15 @@ pub fn run(
     Ok((rows, left_out))
 }
 
+/// The median width of the bodies that move (m); none where they are points.
+fn usual_size(world: &World) -> Option<Real> {
+    let bodies = world.bodies();
+    let moving = (0..bodies.len()).filter(|i| bodies.masses[*i].is_free());
+    let mut sizes: Vec<Real> = moving.map(|i| 2.0 * bodies.infos[i].size).collect();
+    sizes.sort_by(Real::total_cmp);
+    sizes.get(sizes.len() / 2).copied().filter(|size| *size > 0.0)
+}
+
 /// All settings and steps of one engine on a scene.
 fn ladder(
     scene: &mut Scene,
@@ -107,7 +119,7 @@ fn ladder(
     entrant: &mut dyn Entrant,
     rows: &mut Vec<Row>,
 ) -> Result<()> {
-    let divides = entrant.name() != "pymunk";
+    let divides = !engines::ITERATE.contains(&entrant.name());
     let settings: &[u32] = if divides { &SUBSTEPS } else { &ITERATIONS };
     for &setting in settings {
         if divides {

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use culbuto::body::{BodyKind, Filter, Locks, Mixing, Role};
 use culbuto::joint::{Hold, JointDef, JointKind, Spring as CoreSpring, Travel};
 use culbuto::math::{Real, Vec2, Wrench, vec2};
-use culbuto::shapes::ShapeDef;
+use culbuto::shapes::{Shape as CoreShape, ShapeDef};
 use culbuto::{BodyDef, World};
 
 use crate::scene::{Body, Joint, Region, Scene, Shape, Spring};
@@ -59,6 +59,7 @@ pub fn translate(name: &'static str, about: &'static str, world: &World) -> Tran
         sleeping: false,
         swing: None,
         region: Region::Everywhere,
+        size: None,
     })
 }
 
@@ -76,7 +77,7 @@ fn body(def: &BodyDef) -> Translated<Body> {
         return Err("inertia or centre of mass are not those of the shapes");
     }
     let mut shapes =
-        def.shapes.iter().map(|part| shape(part.shape.def())).collect::<Translated<Vec<_>>>()?;
+        def.shapes.iter().map(|part| shape(&part.shape)).collect::<Translated<Vec<_>>>()?;
     let wire = |shape: &Shape| matches!(shape, Shape::Segment { .. });
     if def.kind == BodyKind::Dynamic && shapes.iter().any(wire) {
         return Err("a wire that weighs something");
@@ -102,14 +103,20 @@ fn body(def: &BodyDef) -> Translated<Body> {
     })
 }
 
-fn shape(def: &ShapeDef) -> Translated<Shape> {
-    match *def {
+fn shape(shape: &CoreShape) -> Translated<Shape> {
+    match *shape.def() {
         ShapeDef::Circle { radius, center } => Ok(Shape::Circle { center, radius }),
         ShapeDef::Box { width, height, center, angle: 0.0 } => {
             Ok(Shape::Box { center, half: vec2(0.5 * width, 0.5 * height) })
         }
+        ShapeDef::Capsule { a, b, radius } => Ok(Shape::Capsule { a, b, radius }),
         ShapeDef::Segment { a, b } => Ok(Shape::Segment { a, b }),
-        _ => Err("a shape that not all engines have"),
+        _ => match shape.convex_pieces() {
+            [vertices] if shape.rounding() == 0.0 => {
+                Ok(Shape::Polygon { vertices: vertices.clone() })
+            }
+            _ => Err("a shape that not all engines have"),
+        },
     }
 }
 

@@ -98,6 +98,7 @@ fn mass(body: &Body) -> Result<MassProperties> {
         Shape::Circle { center, radius } => {
             Some(shapes::Shape::new(shapes::ShapeDef::Circle { radius, center }))
         }
+        Shape::Capsule { a, b, radius } => Some(shapes::Shape::capsule(a, b, radius)),
         Shape::Segment { .. } => None,
         _ => Some(shapes::Shape::polygon(&shape.corners())),
     });

@@ -13,6 +13,7 @@ import culbuto
 from culbuto import catalogue
 from culbuto._json import dumps
 from culbuto.report.needs import Need, needs
+from culbuto.report.stability import asked_of_culbuto, hard_scenes, own
 from culbuto.study import Row, Study, study
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
     from culbuto.catalogue import Scene, Verdict
     from culbuto.report.peers import Peers
+    from culbuto.report.stability import Line
 
 THROWN = "projectile"
 THROW_METHODS = ("explicit_euler", "semi_implicit_euler", "leapfrog")
@@ -39,14 +41,18 @@ class SceneResult:
 
 @dataclass(frozen=True)
 class Results:
-    """Everything the report shows; `throw` is the thrown ball at several ticks a second."""
+    """Everything the report shows.
+
+    `throw` is the thrown ball at several ticks a second, None where only the matrix is asked for.
+    """
 
     scenes: tuple[SceneResult, ...]
-    throw: Study
+    throw: Study | None
     machine: str
     repeats: int
     needs: tuple[Need, ...] = ()
     peers: Peers | None = None
+    stability: tuple[Line, ...] = ()
 
     @property
     def rows(self) -> list[Row]:
@@ -75,6 +81,28 @@ def measure(
         repeats=1 if quick else REPEATS,
     )
     return Results(tuple(results), throw, machine(), 1 if quick else REPEATS, tuple(needs()))
+
+
+def matrix(
+    names: Sequence[str] = (),
+    *,
+    peers: Peers | None = None,
+    quick: bool = False,
+    done: Callable[[str], object] = lambda _: None,
+) -> Results:
+    """The hard scenes of these names or numbers (all, without any) by Culbuto's solvers.
+
+    Those that `peers` have were run with the other engines and are not run again. `quick`: at
+    one step only.
+    """
+    there = {} if peers is None else {line.name: line for line in peers.stability}
+    lines = []
+    for name in hard_scenes(names):
+        lines.append(there.get(name) or own(name, quick=quick))
+        done(name)
+    if not names:
+        lines += asked_of_culbuto(lines)
+    return Results((), None, machine(), 1, peers=peers, stability=tuple(lines))
 
 
 def _study(scene: Scene, *, quick: bool) -> Study:

@@ -13,6 +13,7 @@ from culbuto import _native
 from culbuto.drawing import picture
 from culbuto.report import style
 from culbuto.report.measure import Results, SceneResult, versions
+from culbuto.report.stability import engines
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -48,6 +49,13 @@ def seconds(value: float) -> str:
         if value >= size:
             return f"{value / size:.3g} {unit}"
     return f"{value / 1e-9:.3g} ns"
+
+
+def step(value: float) -> str:
+    """A step (s): 1/60 s, or its digits where it is no part of a second."""
+    parts = 1 / value
+    whole = value < 1 and abs(parts - round(parts)) < 1e-6 * parts
+    return f"1/{parts:.0f} s" if whole else seconds(value)
 
 
 def quickest(study: Study, target: float) -> Row | None:
@@ -103,11 +111,11 @@ def write_page(results: Results, folder: Path) -> list[Path]:
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
-    helpers = (number, seconds, quickest, order, worst, mark, label)
+    helpers = (number, seconds, step, quickest, order, worst, mark, label)
     environment.globals.update({helper.__name__: helper for helper in helpers})
     panels = [
         style.inline(figure, f"throw{i}", "A thrown ball")
-        for i, figure in enumerate(figures.throw_panels(results.throw))
+        for i, figure in enumerate(figures.throw_panels(results.throw) if results.throw else [])
     ]
     page = environment.from_string(template).render(
         results=results,
@@ -118,6 +126,8 @@ def write_page(results: Results, folder: Path) -> list[Path]:
         panels=panels,
         scenes=[_scene(result, results.peers) for result in results.scenes],
         peers=results.peers,
+        matrix=results.stability,
+        engines=engines(results.stability),
         light=style.variables(dark=False),
         dark=style.variables(dark=True),
     )
@@ -125,6 +135,8 @@ def write_page(results: Results, folder: Path) -> list[Path]:
     pictures.mkdir(parents=True, exist_ok=True)
     index, throw = folder / "index.html", pictures / "thrown-ball.svg"
     index.write_text(page, "utf-8")
+    if results.throw is None:
+        return [index]
     title = "A thrown ball at several ticks a second, and error against run time"
     throw.write_text(style.standalone(figures.throw_figure(results.throw), title), "utf-8")
     return [index, throw]

@@ -7,13 +7,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from culbuto._json import or_infinite
-from culbuto.report.stability import Line, matrix
+from culbuto.report.stability import OURS, Line, line
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
     from pathlib import Path
-
-OURS = "culbuto"
 
 
 @dataclass(frozen=True)
@@ -36,12 +34,16 @@ class PeerRow:
 
 @dataclass(frozen=True)
 class Peers:
-    """What was measured of other engines, on what and with which versions of them."""
+    """What was measured of other engines, on what and with which versions of them.
+
+    `left_out` holds why a scene has no others, `missing` why an engine could not be had.
+    """
 
     rows: tuple[PeerRow, ...]
     versions: tuple[str, ...]
     build: str
     left_out: dict[str, str]
+    missing: dict[str, str]
     stability: tuple[Line, ...]
 
     @classmethod
@@ -52,14 +54,17 @@ class Peers:
             rows = tuple(PeerRow.of(row) for row in found["rows"])
             left_out = {entry["scene"]: entry["why"] for entry in found["left_out"]}
             versions = tuple(version for _, version in found["versions"])
-            return cls(rows, versions, found["build"], left_out, matrix(found["stability"]))
+            stability = tuple(map(line, found["stability"]))
+            missing = dict(found["missing"])
+            return cls(rows, versions, found["build"], left_out, missing, stability)
         except (KeyError, TypeError) as error:
             message = f"{path} is no study of other engines ({error}); see `make report-peers`"
             raise ValueError(message) from error
 
     def engines(self, scene: str) -> list[str]:
         """Names of the other engines that have rows of a scene."""
-        names = (row.engine for row in self.rows if row.scene == scene and row.engine != OURS)
+        own = (row for row in self.rows if row.scene == scene)
+        names = (row.engine for row in own if not row.engine.startswith(OURS))
         return list(dict.fromkeys(names))
 
     def curve(self, scene: str, engine: str) -> list[PeerRow]:
@@ -74,7 +79,7 @@ class Peers:
 
     def quickest(self, scene: str, target: float) -> PeerRow | None:
         """The row of another engine that takes the least time for an error of at most `target`."""
-        good = (row for row in self.rows if row.scene == scene and row.engine != OURS)
+        good = (row for row in self.rows if row.scene == scene and not row.engine.startswith(OURS))
         return quickest((row for row in good), target)
 
 

@@ -61,9 +61,11 @@ METHODS = {
 PEERS = {
     "culbuto": Look("Culbuto", "#3d6b22", "#a5d670", "p", PENTAGON),
     "culbuto-newton": Look("Culbuto, newton", "#3d6b23", "#a5d671", "p", PENTAGON),
+    "culbuto-auto": Look("Culbuto, auto", "#3d6b24", "#a5d672", "p", PENTAGON),
     "box2d": Look("Box2D 3", "#8c564b", "#d3a99f", "d", DIAMOND),
     "rapier-f64": Look("Rapier f64", "#4f5b66", "#b9c3cc", "h", PENTAGON),
     "rapier-f32": Look("Rapier f32", "#8a97a3", "#7f8b96", "H", PENTAGON),
+    "box2d-2": Look("Box2D 2", "#a5715f", "#c08d7f", "d", DIAMOND),
     "pymunk": Look("pymunk", "#857a00", "#d8cf6a", "8", CIRCLE),
 }
 INK = Look("", "#24292f", "#e6edf3", "", "")

@@ -2,6 +2,7 @@
 
 mod laws;
 mod order;
+pub mod stability;
 mod study;
 mod verify;
 

@@ -7,6 +7,7 @@ pub mod file;
 mod fluid;
 mod friction;
 mod gauge;
+pub mod hard;
 mod impact;
 mod joints;
 mod matter;

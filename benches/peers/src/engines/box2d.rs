@@ -1,7 +1,7 @@
 //! Box2D 3, through its safe bindings.
 
 use boxdd::filter::Filter;
-use boxdd::shapes::{circle, segment};
+use boxdd::shapes::{capsule, circle, segment};
 use boxdd::{BodyId, BodyType, Foundation, Polygon, ShapeDef, SurfaceMaterial, Transform, World};
 use culbuto::body::BodyKind;
 use culbuto::math::{Pose, Real, Vec2, vec2};
@@ -13,6 +13,8 @@ use crate::scene::{Body, Scene, Shape};
 pub struct Box2d {
     world: World,
     bodies: Vec<BodyId>,
+    /// Its unit of length (m). Its own setting can be made but once in a process, so lengths are handed over in it.
+    unit: Real,
 }
 
 /// It computes in single precision.
@@ -38,6 +40,9 @@ fn add_shape(body: &mut boxdd::Body<'_>, def: &ShapeDef, declared: &Shape) -> Re
             let polygon = Polygon::from_points(vertices.iter().copied().map(pair), 0.0)?;
             body.create_polygon(def, &polygon)?
         }
+        Shape::Capsule { a, b, radius } => {
+            body.create_capsule(def, &capsule(pair(a), pair(b), number(radius))?)?
+        }
         Shape::Segment { a, b } => body.create_segment(def, &segment(pair(a), pair(b))?)?,
     };
     Ok(())
@@ -55,6 +60,7 @@ fn add_body(world: &mut World, scene: &Scene, declared: &Body) -> Result<BodyId>
         .angle(number(declared.angle))
         .linear_velocity(pair(declared.velocity))
         .angular_velocity(number(declared.angular_velocity))
+        .allow_fast_rotation(true) // else it caps the angular velocity
         .awake(!(declared.asleep && scene.sleeping))
         .build()?;
     let material = SurfaceMaterial::new()
@@ -99,6 +105,8 @@ fn add_joint(world: &mut World, scene: &Scene, k: usize, bodies: &[BodyId]) -> R
 
 impl Engine for Box2d {
     fn build(scene: &Scene) -> Result<Self> {
+        let unit = scene.size.unwrap_or(1.0);
+        let scene = &scene.in_units_of(unit);
         let foundation = match Foundation::get() {
             Some(foundation) => foundation,
             None => Foundation::initialize_default()?,
@@ -111,12 +119,12 @@ impl Engine for Box2d {
         for k in 0..scene.joints.len() {
             add_joint(&mut world, scene, k, &bodies)?;
         }
-        Ok(Self { world, bodies })
+        Ok(Self { world, bodies, unit })
     }
 
     fn steer(&mut self, body: usize, velocity: Vec2) -> Result<()> {
         let body = self.bodies[body];
-        Ok(self.world.body(body)?.set_linear_velocity(pair(velocity))?)
+        Ok(self.world.body(body)?.set_linear_velocity(pair(velocity / self.unit))?)
     }
 
     fn step(&mut self, scene: &Scene) -> Result<()> {
@@ -126,14 +134,14 @@ impl Engine for Box2d {
     }
 
     fn state(&mut self) -> Result<Vec<State>> {
-        let world = &mut self.world;
+        let (world, unit) = (&mut self.world, self.unit);
         let state = |&id| {
             let body = world.body(id)?;
             let (place, velocity) = (body.position()?, body.linear_velocity()?);
             Ok(State {
-                position: vec2(place.x.into(), place.y.into()),
+                position: vec2(place.x.into(), place.y.into()) * unit,
                 angle: body.rotation()?.angle().into(),
-                velocity: vec2(velocity.x.into(), velocity.y.into()),
+                velocity: vec2(velocity.x.into(), velocity.y.into()) * unit,
                 angular_velocity: body.angular_velocity()?.into(),
             })
         };

@@ -25,6 +25,7 @@ fn shape(declared: &Declared) -> Result<Shape> {
             Shape::new(ShapeDef::Box { width, height, center, angle: 0.0 })?
         }
         Declared::Polygon { ref vertices } => Shape::polygon(vertices)?,
+        Declared::Capsule { a, b, radius } => Shape::capsule(a, b, radius)?,
         Declared::Segment { a, b } => Shape::segment(a, b)?,
     })
 }

@@ -45,6 +45,9 @@ fn shape(declared: &Shape) -> Result<ColliderBuilder> {
             ColliderBuilder::convex_polyline(vertices.iter().copied().map(vector).collect())
                 .ok_or("not a convex polygon")?
         }
+        Shape::Capsule { a, b, radius } => {
+            ColliderBuilder::capsule_from_endpoints(vector(a), vector(b), number(radius))
+        }
         Shape::Segment { a, b } => ColliderBuilder::segment(vector(a), vector(b)),
     })
 }
@@ -107,10 +110,12 @@ fn spring(declared: &Joint, length: Number, by: &Spring) -> SpringJointBuilder {
 impl Engine for Rapier {
     fn build(scene: &Scene) -> Result<Self> {
         let mut world = PhysicsWorld { gravity: vector(scene.gravity), ..PhysicsWorld::default() };
-        world.integration_parameters.dt = number(scene.dt);
         // Contacts of pairs that hardly moved are used again, as in Box2D: the default of both.
         world.integration_parameters.contact_recycling = true;
         world.integration_parameters.num_solver_iterations = scene.substeps as usize;
+        if let Some(size) = scene.size {
+            world.integration_parameters.length_unit = number(size);
+        }
         let mut handles = Vec::with_capacity(scene.bodies.len());
         for declared in &scene.bodies {
             let handle = world.insert_body(body(declared, scene.sleeping));
@@ -144,7 +149,8 @@ impl Engine for Rapier {
         Ok(())
     }
 
-    fn step(&mut self, _: &Scene) -> Result<()> {
+    fn step(&mut self, scene: &Scene) -> Result<()> {
+        self.world.integration_parameters.dt = number(scene.dt);
         self.world.step();
         Ok(())
     }

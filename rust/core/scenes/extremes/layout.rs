@@ -9,7 +9,7 @@ use crate::world::World;
 
 /// How large, and where.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Layout {
+pub(in crate::scenes) struct Layout {
     /// Lengths are multiplied by this, times and speeds by its root, so that gravity stays what it is.
     pub size: Real,
     /// Where the origin stands (m).
@@ -113,7 +113,7 @@ fn bounce(layout: Layout) -> Result<World> {
 }
 
 /// Boxes and balls that fall on one another.
-pub(super) fn pile(layout: Layout) -> Result<World> {
+pub(in crate::scenes) fn pile(layout: Layout) -> Result<World> {
     let mut world = layout.floor()?;
     for k in 0..6_u8 {
         let (k, even) = (Real::from(k), k % 2 == 0);

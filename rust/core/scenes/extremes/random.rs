@@ -94,7 +94,7 @@ const HALF_WIDTH: Real = 4.0;
 const HEIGHT: Real = 20.0;
 
 /// The random scene of a seed, and its step (s).
-fn bin(seed: u32) -> Result<(World, Real)> {
+pub(in crate::scenes) fn bin(seed: u32) -> Result<(World, Real)> {
     let mut dice = Dice::new(u64::from(seed));
     let mut world = World::default();
     let restitution = [0.0, 0.3, 0.8, 1.0][dice.below(4) as usize];

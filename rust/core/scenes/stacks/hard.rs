@@ -159,7 +159,7 @@ fn two_cards(mu: Real) -> Result<World> {
     Ok(world)
 }
 
-fn house(storeys: u32, mu: Real) -> Result<World> {
+pub(in crate::scenes) fn house(storeys: u32, mu: Real) -> Result<World> {
     let mut world = ground_of(mu)?;
     let surface = Surface { friction: Friction::of(mu), ..Surface::default() };
     let half = vec2(0.5 * sin_cos(LEAN).0 + ROUND, 0.5 * cos(LEAN) + ROUND);
@@ -218,7 +218,7 @@ fn cards() -> Result<Vec<Number>> {
     Ok(numbers)
 }
 
-fn bricks(count: u32, part: Real) -> Result<World> {
+pub(in crate::scenes) fn bricks(count: u32, part: Real) -> Result<World> {
     let mut world = ground_of(0.6)?;
     let mut reach = 0.0;
     for level in 0..count {

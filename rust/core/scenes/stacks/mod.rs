@@ -3,5 +3,5 @@
 mod hard;
 mod towers;
 
-pub(super) use hard::{CARDS, OVERHANG, RATIOS, TALL, TOP_HEAVY};
-pub(super) use towers::{LONG, PYRAMID, TEN, TWENTY, ground, tower};
+pub(super) use hard::{CARDS, OVERHANG, RATIOS, TALL, TOP_HEAVY, bricks, house};
+pub(super) use towers::{LONG, PYRAMID, TEN, TWENTY, boxes, ground, pyramid, tower};

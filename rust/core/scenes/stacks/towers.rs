@@ -33,7 +33,7 @@ pub static PYRAMID: Scene = Scene {
     id: "K9",
     name: "pyramid",
     title: "Pyramid of boxes, 40 at the base",
-    answer: Answer::Numbers(|| stand(pyramid, 5.0, 20)),
+    answer: Answer::Numbers(|| stand(pyramid::<40>, 5.0, 20)),
     ..TEN
 };
 
@@ -50,7 +50,7 @@ pub static LONG: [Scene; 3] = [
         ..TWENTY
     },
     Scene {
-        answer: Answer::Numbers(|| stand(pyramid, 60.0, 100)),
+        answer: Answer::Numbers(|| stand(pyramid::<40>, 60.0, 100)),
         title: "Pyramid of boxes, 40 at the base, for 60 s",
         ..PYRAMID
     },
@@ -92,7 +92,7 @@ pub(in crate::scenes) fn tower<const LEVELS: u32>(loose: bool, gap: Real) -> Res
 }
 
 /// Boxes on one another, of any densities (kg/m²) by level.
-pub(super) fn boxes(
+pub(in crate::scenes) fn boxes(
     levels: u32,
     density: impl Fn(u32) -> Real,
     (loose, gap): (bool, Real),
@@ -114,8 +114,7 @@ fn pattern(k: u32) -> Real {
 }
 
 /// Rows of boxes 1 cm apart, each on the joints of the row below.
-fn pyramid(loose: bool, gap: Real) -> Result<World> {
-    const BASE: u32 = 40;
+pub(in crate::scenes) fn pyramid<const BASE: u32>(loose: bool, gap: Real) -> Result<World> {
     let mut world = ground()?;
     for level in 0..BASE {
         for place in 0..BASE - level {

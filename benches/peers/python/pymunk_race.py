@@ -1,19 +1,13 @@
-"""Pymunk's side of the race: reads orders from the runner, a line of JSON each, and answers so.
-
-The orders: {"start": scene} makes the world of a scene; {"advance": [first, last]} takes the steps
-from the first to before the last and answers with their CPU time in seconds; "state" answers with
-all bodies, "version" with pymunk's. Not for use by hand: the runner starts it, see `make peers`.
-"""
+"""Pymunk's side of the race. Not for use by hand: the runner starts it, see `make peers`."""
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 import time
 from typing import Any
 
 import pymunk
+from orders import obey, pushes
 
 KINDS = {
     "static": pymunk.Body.STATIC,
@@ -21,6 +15,7 @@ KINDS = {
     "dynamic": pymunk.Body.DYNAMIC,
 }
 TIME_TO_SLEEP = 0.5  # s, as the other engines
+SLOP = 1e-3  # of the usual length: its default, 0.1, is meant for pixels
 
 
 def make_shape(body: pymunk.Body, declared: dict[str, Any]) -> pymunk.Shape:
@@ -28,8 +23,9 @@ def make_shape(body: pymunk.Body, declared: dict[str, Any]) -> pymunk.Shape:
     [(kind, given)] = declared.items()
     if kind == "circle":
         return pymunk.Circle(body, given["radius"], tuple(given["center"]))
-    if kind == "segment":
-        return pymunk.Segment(body, tuple(given["a"]), tuple(given["b"]), 0.0)
+    if kind in {"segment", "capsule"}:
+        radius = given.get("radius", 0.0)
+        return pymunk.Segment(body, tuple(given["a"]), tuple(given["b"]), radius)
     if kind == "polygon":
         return pymunk.Poly(body, [tuple(corner) for corner in given["vertices"]])
     (x, y), (w, h) = given["center"], given["half"]
@@ -41,11 +37,12 @@ class Race:
 
     def __init__(self, scene: dict[str, Any]) -> None:
         """Makes the world; pymunk's other defaults stay."""
-        self.dt: float = scene["dt"]
         self.swing: dict[str, Any] | None = scene["swing"]
         self.space = pymunk.Space()
         self.space.gravity = tuple(scene["gravity"])
         self.space.iterations = scene["iterations"]
+        if scene["size"] is not None:
+            self.space.collision_slop = SLOP * scene["size"]
         if scene["sleeping"]:
             self.space.sleep_time_threshold = TIME_TO_SLEEP
         self.bodies = [self.make_body(declared, scene) for declared in scene["bodies"]]
@@ -96,21 +93,15 @@ class Race:
             part.collide_bodies = False
         self.space.add(*parts)
 
-    def advance(self, first: int, last: int) -> float:
+    def advance(self, first: int, last: int, dt: float) -> float:
         """Takes steps and gives their CPU time (s)."""
         start = time.process_time()
         for step in range(first, last):
             if self.swing is not None:
-                self.steer(self.swing, step)
-            self.space.step(self.dt)
+                velocity = pushes(self.swing, step, dt)
+                self.bodies[self.swing["body"]].velocity = velocity
+            self.space.step(dt)
         return time.process_time() - start
-
-    def steer(self, swing: dict[str, Any], step: int) -> None:
-        """Sets the velocity of what swings to that of this step."""
-        now, then = (math.sin(swing["rate"] * self.dt * k) for k in (step, step + 1))
-        x, y = swing["amplitude"]
-        speed = (then - now) / self.dt
-        self.bodies[swing["body"]].velocity = (x * speed, y * speed)
 
     def state(self) -> list[dict[str, Any]]:
         """All bodies, in the scene's order."""
@@ -125,22 +116,5 @@ class Race:
         ]
 
 
-def main() -> None:
-    """Answers until the orders end."""
-    race: Race | None = None
-    for line in sys.stdin:
-        order = json.loads(line)
-        answer: object = None
-        if order == "version":
-            answer = pymunk.version
-        elif race is not None and order == "state":
-            answer = race.state()
-        elif race is not None and "advance" in order:
-            answer = race.advance(*order["advance"])
-        else:
-            race = Race(order["start"])
-        print(json.dumps(answer), flush=True)
-
-
 if __name__ == "__main__":
-    main()
+    obey(Race, f"pymunk {pymunk.version}")

@@ -1,19 +1,20 @@
-//! pymunk, in a Python process of its own that keeps its own CPU time: a line of JSON there, a line
-//! back.
+//! An engine of Python, in a process of its own that keeps its own CPU time: a line of JSON there, a line back
+//! (`python/orders.py`).
 
 use std::io::{BufRead, BufReader, Write};
 use std::ops::Range;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::time::Duration;
 
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 use super::{Entrant, State};
 use crate::Result;
 use crate::scene::Scene;
 
-const SCRIPT: &str = include_str!("../../pymunk_race.py");
+/// Where the scripts are.
+const SCRIPTS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/python");
 
 /// What the script understands.
 #[derive(Serialize)]
@@ -21,12 +22,20 @@ const SCRIPT: &str = include_str!("../../pymunk_race.py");
 enum Order<'a> {
     /// Make a scene; it answers null.
     Start(&'a Scene),
-    /// Take steps from the first to before the last; it answers their CPU time (s).
-    Advance([u32; 2]),
+    /// Take steps from the first to before the last, of this length (s); it answers their CPU time (s).
+    Advance(u32, u32, f64),
     /// It answers with its version.
     Version,
     /// It answers with a list of states.
     State,
+}
+
+/// What it answers.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Answer<T> {
+    Done(T),
+    Failed(String),
 }
 
 pub struct Worker {
@@ -37,9 +46,11 @@ pub struct Worker {
 }
 
 impl Worker {
-    pub fn new(name: &'static str, python: &str) -> Result<Self> {
+    /// Starts the script of this name.
+    pub fn new(name: &'static str, script: &str, python: Option<&str>) -> Result<Self> {
+        let python = python.ok_or("it needs --python, an interpreter that has it")?;
         let mut process = Command::new(python)
-            .args(["-c", SCRIPT])
+            .arg(format!("{SCRIPTS}/{script}"))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
             .spawn()
@@ -55,9 +66,12 @@ impl Worker {
         self.orders.flush()?;
         let mut line = String::new();
         if self.answers.read_line(&mut line)? == 0 {
-            return Err("pymunk's process ended".into());
+            return Err(format!("the process of {} ended", self.name).into());
         }
-        Ok(serde_json::from_str(&line)?)
+        match serde_json::from_str(&line)? {
+            Answer::Done(value) => Ok(value),
+            Answer::Failed(message) => Err(message.into()),
+        }
     }
 }
 
@@ -67,16 +81,15 @@ impl Entrant for Worker {
     }
 
     fn version(&mut self) -> Result<String> {
-        let version: String = self.ask(&Order::Version)?;
-        Ok(format!("pymunk {version}"))
+        self.ask(&Order::Version)
     }
 
     fn start(&mut self, scene: &Scene) -> Result<()> {
         self.ask(&Order::Start(scene))
     }
 
-    fn advance(&mut self, _: &Scene, steps: Range<u32>) -> Result<Duration> {
-        let seconds: f64 = self.ask(&Order::Advance([steps.start, steps.end]))?;
+    fn advance(&mut self, scene: &Scene, steps: Range<u32>) -> Result<Duration> {
+        let seconds: f64 = self.ask(&Order::Advance(steps.start, steps.end, scene.dt))?;
         Ok(Duration::try_from_secs_f64(seconds)?)
     }
 
