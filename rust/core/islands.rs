@@ -10,8 +10,10 @@ pub struct Islands {
     number: Vec<u32>,
     /// Places of the links, group after group.
     order: Vec<u32>,
-    /// Where each group ends in `order`.
+    /// Where each group ends in `order` while links are counted.
     ends: Vec<u32>,
+    /// Where each group begins and ends there.
+    spans: Vec<[u32; 2]>,
 }
 
 /// No group yet.
@@ -34,36 +36,56 @@ impl Islands {
         self.sort(links, &ties);
     }
 
+    /// Brings the first `ranked` links into the order of their ranks within each group, before the others, and the groups into the
+    /// order of the first links of each.
+    pub fn arrange<R: Ord>(&mut self, ranked: usize, rank: impl Fn(u32) -> R) {
+        let Self { order, spans, .. } = self;
+        let has_rank = |link: &u32| (*link as usize) < ranked;
+        for [start, end] in &*spans {
+            let group = &mut order[*start as usize..*end as usize];
+            let count = group.partition_point(has_rank);
+            let group = &mut group[..count];
+            if !group.is_sorted_by_key(|link| rank(*link)) {
+                group.sort_unstable_by_key(|link| rank(*link));
+            }
+        }
+        let first = |[start, _]: &[u32; 2]| {
+            let link = order[*start as usize];
+            if has_rank(&link) { Ok(rank(link)) } else { Err(link) }
+        };
+        spans.sort_by_key(first);
+    }
+
     /// Forgets all groups.
     pub fn clear(&mut self) {
-        self.ends.clear();
+        self.spans.clear();
     }
 
     /// Makes one group of this many links.
     pub fn unite_all(&mut self, links: usize) {
         self.order.clear();
         self.order.extend(0..links as u32);
-        self.ends.clear();
-        self.ends.push(links as u32);
+        self.spans.clear();
+        self.spans.push([0, links as u32]);
     }
 
     /// Number of groups.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.ends.len()
+        self.spans.len()
     }
 
     /// Whether there is no group.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.ends.is_empty()
+        self.spans.is_empty()
     }
 
-    /// Places of the links of a group, in the order they were given.
+    /// Places of the links of a group, in the order they were given or brought into.
     #[must_use]
     pub fn group(&self, k: usize) -> &[u32] {
-        let start = k.checked_sub(1).map_or(0, |before| self.ends[before]);
-        &self.order[start as usize..self.ends[k] as usize]
+        let [start, end] = self.spans[k];
+        &self.order[start as usize..end as usize]
     }
 
     fn root(&mut self, mut body: u32) -> u32 {
@@ -101,6 +123,12 @@ impl Islands {
             self.order[self.ends[group] as usize] = place as u32;
             self.ends[group] += 1;
         }
+        self.spans.clear();
+        let mut start = 0;
+        for end in &self.ends {
+            self.spans.push([start, *end]);
+            start = *end;
+        }
     }
 
     fn group_of(&mut self, [a, b]: &[u32; 2], ties: &impl Fn(u32) -> bool) -> u32 {
@@ -124,5 +152,16 @@ mod tests {
         islands.split(6, &links, |body| body != 0);
         let groups: Vec<_> = (0..islands.len()).map(|k| islands.group(k)).collect();
         assert_eq!(groups, [&[0, 2, 3][..], &[1], &[4]]);
+    }
+
+    #[test]
+    fn links_follow_their_ranks_and_groups_their_first_links() {
+        let mut islands = Islands::default();
+        // The last two links have no rank.
+        let links = [[1, 2], [3, 4], [2, 5], [3, 6], [7, 8], [1, 5]];
+        islands.split(9, &links, |_| true);
+        islands.arrange(4, |link| [3, 2, 1, 0][link as usize]);
+        let groups: Vec<_> = (0..islands.len()).map(|k| islands.group(k)).collect();
+        assert_eq!(groups, [&[3, 1][..], &[2, 0, 5], &[4]]);
     }
 }

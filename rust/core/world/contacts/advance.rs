@@ -3,6 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::hooks::Answer;
+use super::order::{Rank, upwards};
 use super::surroundings::{Fields, Still};
 use super::view::{place_of, seen};
 use super::{Contacts, FAR, Patch};
@@ -30,8 +31,10 @@ pub(in crate::world) struct ContactScratch {
     pub found: Vec<Manifold>,
     islands: Islands,
     links: Vec<[u32; 2]>,
-    /// Patches of the first links.
+    /// Patches of the first links, and the order in which they are swept: those that bear a load before those that do not, both from
+    /// above down.
     solid: Vec<u32>,
+    ranks: Vec<(bool, Rank, u32)>,
     /// Joints of the others.
     joined: Vec<u32>,
     /// Whether groups of smooth joints in which nothing touches are left to a method.
@@ -76,6 +79,12 @@ impl ContactScratch {
     /// Bodies of the links of a group.
     pub fn links_of(&self, k: usize) -> impl Iterator<Item = [u32; 2]> {
         self.islands.group(k).iter().map(|link| self.links[*link as usize])
+    }
+
+    /// Patches of all groups, as they are gone through.
+    pub fn patches(&self) -> impl Iterator<Item = u32> + Clone {
+        let links = (0..self.groups()).flat_map(|k| self.islands.group(k));
+        links.filter_map(|link| self.solid.get(*link as usize).copied())
     }
 
     /// Patches of a group, and the bodies of each.
@@ -126,13 +135,23 @@ impl World {
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
         let gives_way = |i: u32| masses[i as usize].is_free() && !contacts.is_asleep(i as usize);
         let ContactScratch {
-            islands, links, solid, joined, moved, answers, thrown, watched, ..
+            islands,
+            links,
+            solid,
+            ranks,
+            joined,
+            moved,
+            answers,
+            thrown,
+            watched,
+            ..
         } = &mut scratch.contacts;
         // What was marked in the last step, so that those that sleep cost nothing.
         for i in links.drain(..).flatten() {
             moved.get_mut(i as usize).into_iter().for_each(|moved| *moved = false);
         }
         solid.clear();
+        ranks.clear();
         let fields = plan.as_ref().is_some_and(|plan| plan.together > 0);
         if fields {
             moved.clear();
@@ -140,19 +159,25 @@ impl World {
         moved.resize(masses.len(), false);
         thrown.clear();
         *watched = contacts.far;
-        // What bore nothing comes last: eight that are idle cost little, one among seven that are not as much as those.
-        let bearing: &[bool] = if meets { &[true, false] } else { &[] };
-        for (near, place) in bearing.iter().flat_map(|bears| contacts.solid(*bears)) {
-            if answers.get(place).is_some_and(|answer| !answer.on) {
-                continue;
-            }
+        let up = upwards(state.settings.gravity);
+        let near = if meets { &contacts.near[..] } else { &[] };
+        for near in near.iter().filter(|near| near.count > 0 && near.resists()) {
             let bodies = near.proxies.map(|proxy| contacts.body_of(proxy));
-            links.push(bodies);
-            *watched |= near.touch.restitution > 0.0;
-            solid.push(place as u32);
-            bodies.iter().for_each(|i| moved[*i as usize] = gives_way(*i));
-            // One that strikes a sleeping one takes the step again.
-            *watched |= bodies.iter().any(|i| contacts.is_asleep(*i as usize));
+            let rank = contacts.rank(near, &state.bodies, up);
+            for place in near.patches() {
+                if answers.get(place).is_some_and(|answer| !answer.on) {
+                    continue;
+                }
+                links.push(bodies);
+                solid.push(place as u32);
+                // What bore nothing comes last: eight that are idle cost little, one among seven that are not as much as
+                // those.
+                ranks.push((!contacts.patches[place].bears(), rank, place as u32 - near.first));
+                *watched |= near.touch.restitution > 0.0;
+                bodies.iter().for_each(|i| moved[*i as usize] = gives_way(*i));
+                // One that strikes a sleeping one takes the step again.
+                *watched |= bodies.iter().any(|i| contacts.is_asleep(*i as usize));
+            }
         }
         joined.clear();
         for (place, joint) in state.joints.values().iter().enumerate() {
@@ -179,6 +204,7 @@ impl World {
         } else {
             islands.split(masses.len(), links, gives_way);
         }
+        islands.arrange(ranks.len(), |link| ranks[link as usize]);
         self.leave_to_method();
     }
 

@@ -37,7 +37,6 @@ impl World {
         contacts.follow(bodies, &plan.colliding, step);
         contacts.pair_up(bodies, &settings.mixing, hooks.as_deref())?;
         contacts.find_manifolds(bodies, step, &mut scratch.contacts.found);
-        contacts.order(bodies, settings.gravity);
         Ok(contacts.called(bodies, |i| {
             let (way, turn) = step.motion(bodies, i);
             Twist::new(way, turn * bodies.twists[i].angular.signum())
@@ -148,7 +147,6 @@ impl Contacts {
                 touch,
                 kind,
                 touching: false,
-                turn: u32::MAX,
                 first: 0,
                 count: 0,
                 apart: Apart::default(),

@@ -66,13 +66,13 @@ pub(super) struct Contacts {
     pub touching: touching::Touching,
     #[serde(skip)]
     map: PairMap,
-    /// Places of the pairs that have manifolds, from above down, and what is sorted.
-    #[serde(skip)]
-    pub order: Vec<u32>,
-    #[serde(skip)]
-    ranks: Vec<order::Rank>,
     #[serde(skip)]
     before: Vec<Patch>,
+    #[serde(skip)]
+    spare: Vec<Near>,
+    /// Pairs that began or ended to touch, from above down.
+    #[serde(skip)]
+    changed: Vec<(order::Rank, u32)>,
     /// Frames of the bodies' centres of mass, in body order.
     #[serde(skip)]
     frames: Vec<Frame>,

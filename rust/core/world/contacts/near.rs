@@ -27,9 +27,6 @@ pub(in crate::world) struct Near {
     pub kind: Kind,
     /// Whether it touched after the last step.
     pub touching: bool,
-    /// Its turn in the order of the last step.
-    #[serde(skip)]
-    pub turn: u32,
     /// Where its patches begin, and how many there are.
     pub first: u32,
     pub count: u32,

@@ -1,66 +1,26 @@
-//! The order in which pairs are dealt with: from above down, whatever the order in which they were found.
+//! The order in which contacts are dealt with: from above down, whatever the order in which their pairs were found.
 
-use super::{Contacts, Near};
+use super::{Contacts, Near, Patch};
 use crate::body::Bodies;
 use crate::collision::ProxyId;
 use crate::math::{Real, Vec2};
 
-/// A pair by its height, then by its numbers, whatever else is in the world; and its place among all.
-pub(super) type Rank = (u64, [ProxyId; 2], u32);
+/// A pair by its height, then by its numbers, whatever else is in the world.
+pub(super) type Rank = (u64, [ProxyId; 2]);
 
-/// No pair.
-const NONE: u32 = u32::MAX;
+/// The direction against gravity; without gravity along x.
+pub(super) fn upwards(gravity: Vec2) -> Vec2 {
+    if gravity == Vec2::zeros() { Vec2::x() } else { -gravity.normalize() }
+}
 
 impl Contacts {
-    /// Orders the pairs that have manifolds from above down. Sweeps that follow the load settle several times sooner than
-    /// those in any order.
-    pub(super) fn order(&mut self, bodies: &Bodies, gravity: Vec2) {
-        let mut ranks = std::mem::take(&mut self.ranks);
-        self.in_last_order();
-        ranks.clear();
-        ranks.extend(self.order.iter().map(|place| self.rank(*place, bodies, gravity)));
-        if !ranks.is_sorted() {
-            ranks.sort_unstable();
-        }
-        self.order.clear();
-        for (turn, (.., place)) in ranks.iter().enumerate() {
-            self.near[*place as usize].turn = turn as u32;
-            self.order.push(*place);
-        }
-        self.ranks = ranks;
+    /// Where a pair stands in the order.
+    pub(super) fn rank(&self, pair: &Near, bodies: &Bodies, up: Vec2) -> Rank {
+        (descending(self.height(pair, bodies, up)), pair.proxies)
     }
 
-    /// Pairs that resist and places of their patches, from above down: those that bore a load in the last substep, or the rest.
-    pub(super) fn solid(&self, bears: bool) -> impl Iterator<Item = (&Near, usize)> {
-        let pairs = self.order.iter().map(|place| &self.near[*place as usize]);
-        let solid = pairs.filter(|near| near.resists());
-        let patches = solid.flat_map(|near| near.patches().map(move |place| (near, place)));
-        patches.filter(move |(_, place)| self.patches[*place].bears() == bears)
-    }
-
-    /// Pairs that have manifolds, as they were ordered last: that is often right still. What is new comes last.
-    fn in_last_order(&mut self) {
-        let Self { near, order, .. } = self;
-        let count = order.len();
-        order.fill(NONE);
-        for (place, pair) in near.iter().enumerate().filter(|(_, pair)| pair.count > 0) {
-            match order[..count].get_mut(pair.turn as usize) {
-                Some(free) if *free == NONE => *free = place as u32,
-                _ => order.push(place as u32),
-            }
-        }
-        order.retain(|place| *place != NONE);
-    }
-
-    /// Where the pair at a place stands in the order.
-    pub(super) fn rank(&self, place: u32, bodies: &Bodies, gravity: Vec2) -> Rank {
-        let pair = &self.near[place as usize];
-        (descending(self.height(pair, bodies, gravity)), pair.proxies, place)
-    }
-
-    /// How high a pair stands against gravity (m); without gravity along x.
-    fn height(&self, pair: &Near, bodies: &Bodies, gravity: Vec2) -> Real {
-        let up = if gravity == Vec2::zeros() { Vec2::x() } else { -gravity.normalize() };
+    /// How high a pair stands (m).
+    fn height(&self, pair: &Near, bodies: &Bodies, up: Vec2) -> Real {
         let height = |proxy: ProxyId| {
             let body = self.body_of(proxy) as usize;
             (bodies.masses[body].is_free(), bodies.poses[body].position.dot(&up))
@@ -70,7 +30,42 @@ impl Contacts {
             [(true, a), _] | [_, (_, a)] => a,
         }
     }
+
+    /// Keeps pairs and their patches in memory as the groups of a step go through them, `places` being the patches in that order:
+    /// large worlds would wait for memory otherwise. Pairs that are in no group come last. Nothing is moved while few are out of
+    /// their place.
+    pub(super) fn line_up(&mut self, places: impl Iterator<Item = u32> + Clone) {
+        let turns = places.clone().zip(places.clone().skip(1));
+        let wrong = turns.filter(|(before, after)| after < before).count();
+        if SCATTERED * wrong <= self.patches.len() {
+            return;
+        }
+        let Self { near, patches, before, spare, .. } = self;
+        before.clear();
+        spare.clear();
+        let mut take = |pair: &mut Near| {
+            let first = before.len() as u32;
+            for patch in &patches[pair.patches()] {
+                before.push(Patch { near: spare.len() as u32, ..*patch });
+            }
+            spare.push(Near { first, ..pair.clone() });
+            // Taken.
+            pair.proxies[1] = pair.proxies[0];
+        };
+        for place in places {
+            let pair = &mut near[patches[place as usize].near as usize];
+            if pair.proxies[0] != pair.proxies[1] {
+                take(pair);
+            }
+        }
+        near.iter_mut().filter(|pair| pair.proxies[0] != pair.proxies[1]).for_each(take);
+        std::mem::swap(near, spare);
+        std::mem::swap(patches, before);
+    }
 }
+
+/// Patches to one that follows another which stands behind it in memory, from which on all are put in line.
+const SCATTERED: usize = 8;
 
 /// A number that is the smaller, the larger a height is, in the order of [`Real::total_cmp`].
 fn descending(height: Real) -> u64 {

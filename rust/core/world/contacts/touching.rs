@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::events::{ContactEvent, Events};
 use super::near::Kind;
+use super::order::upwards;
 use super::view::place_of;
 use super::{Contacts, Near};
 use crate::body::{Bodies, BodyHandle, Role};
@@ -122,6 +123,7 @@ impl World {
         contacts.see_touching(bodies, state.settings.gravity, &mut scratch.contacts);
         let time = state.clock.now;
         contacts.touching.tell(time, events);
+        contacts.line_up(scratch.contacts.patches());
         let first = events.hit.partition_point(|hit| hit.time < scratch.contacts.start);
         events.hit[first..].sort_by(|a, b| a.time.total_cmp(&b.time));
     }
@@ -147,8 +149,9 @@ impl Contacts {
         gravity: Vec2,
         scratch: &mut super::ContactScratch,
     ) {
-        let mut changed = std::mem::take(&mut self.ranks);
+        let mut changed = std::mem::take(&mut self.changed);
         changed.clear();
+        let up = upwards(gravity);
         for place in 0..self.near.len() {
             let near = &self.near[place];
             let touches = match near.kind {
@@ -157,19 +160,19 @@ impl Contacts {
                 _ => self.touches(near, bodies, scratch),
             };
             if touches != near.touching {
-                changed.push(self.rank(place as u32, bodies, gravity));
+                changed.push((self.rank(near, bodies, up), place as u32));
                 self.near[place].touching = touches;
             }
         }
         changed.sort_unstable();
-        for (.., place) in &changed {
+        for (_, place) in &changed {
             let near = &self.near[*place as usize];
             let touches = near.touching;
             let (pair, flipped) = self.shapes_of(near, bodies.handles());
             let spot = if touches { self.spot(near, bodies, flipped) } else { None };
             self.touching.count(pair, touches, spot);
         }
-        self.ranks = changed;
+        self.changed = changed;
     }
 
     /// Whether a sensor overlaps the other shape.
