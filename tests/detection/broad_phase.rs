@@ -57,12 +57,20 @@ struct Beside {
     broad: BroadPhase,
     tight: BTreeMap<ProxyId, Aabb>,
     moved: BTreeSet<ProxyId>,
+    /// Pairs whose boxes met in the last search.
+    met: BTreeSet<(ProxyId, ProxyId)>,
 }
 
 impl Beside {
     fn pick(&self, number: usize) -> Option<ProxyId> {
         let at = number.checked_rem(self.tight.len())?;
         self.tight.keys().nth(at).copied()
+    }
+
+    /// All pairs of a box are to be found.
+    fn renew(&mut self, id: ProxyId) {
+        self.moved.insert(id);
+        self.met.retain(|(a, b)| *a != id && *b != id);
     }
 
     fn update(&mut self, id: ProxyId, tight: Aabb, margin: Real) {
@@ -84,7 +92,7 @@ impl Beside {
                     self.tight.insert(id, tight).is_none(),
                     "numbers in use are not given again"
                 );
-                self.moved.insert(id);
+                self.renew(id);
             }
             Call::Remove(i) => {
                 if let Some(id) = self.pick(i) {
@@ -106,7 +114,7 @@ impl Beside {
             Call::SetMoving(i, moving) => {
                 if let Some(id) = self.pick(i) {
                     if self.broad.is_moving(id) != moving {
-                        self.moved.insert(id);
+                        self.renew(id);
                     }
                     self.broad.set_moving(id, moving);
                 }
@@ -114,7 +122,7 @@ impl Beside {
             Call::Touch(i) => {
                 if let Some(id) = self.pick(i) {
                     self.broad.touch(id);
-                    self.moved.insert(id);
+                    self.renew(id);
                 }
             }
             Call::FindPairs => self.find_pairs(),
@@ -134,14 +142,18 @@ impl Beside {
     fn find_pairs(&mut self) {
         let allow = |a: ProxyId, b: ProxyId| !(a.0 + b.0).is_multiple_of(7);
         let fat = self.fat();
-        let mut wanted = BTreeSet::new();
+        let (mut wanted, mut meet) = (BTreeSet::new(), BTreeSet::new());
         for (i, (a, box_a)) in fat.iter().enumerate() {
             for (b, box_b) in &fat[i + 1..] {
                 let moved = self.moved.contains(a) || self.moved.contains(b);
                 let moving = self.broad.is_moving(*a) || self.broad.is_moving(*b);
                 assert_eq!(self.broad.overlaps(*a, *b), box_a.overlaps(box_b));
-                if moved && moving && box_a.overlaps(box_b) && allow(*a, *b) {
-                    wanted.insert((*a, *b));
+                if box_a.overlaps(box_b) {
+                    let new = !self.met.contains(&(*a, *b));
+                    if new && moved && moving && allow(*a, *b) {
+                        wanted.insert((*a, *b));
+                    }
+                    meet.insert((*a, *b));
                 }
             }
         }
@@ -153,6 +165,7 @@ impl Beside {
         assert_eq!(found.len(), wanted.len(), "each pair comes once");
         assert_eq!(found.into_iter().collect::<BTreeSet<_>>(), wanted);
         self.moved.clear();
+        self.met = meet;
         self.broad.find_pairs(|_, _| true, |a, b| panic!("{a:?}, {b:?} did not move"));
     }
 
@@ -276,7 +289,7 @@ proptest! {
                 let turn = if *moving { k as Real } else { 0.0 };
                 let tight = unit_box(place + *way * (1.0 + 0.1 * turn * round as Real));
                 one.update(ProxyId(k as u32), &tight, 0.1);
-                many.post(ProxyId(k as u32), &tight, 0.1);
+                many.post(ProxyId(k as u32), &tight, 0.1, vec2(0.0, 0.0));
             }
             many.settle();
             let [mut first, mut second] = [BTreeSet::new(), BTreeSet::new()];

@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::tree::{BoxCast, Tree};
-use crate::math::{Real, Vec2};
-use crate::shapes::{Aabb, Interval};
+use crate::math::{Real, Vec2, vec2};
+use crate::shapes::Aabb;
 
 /// No free proxy.
 const NONE: u32 = u32::MAX;
@@ -17,12 +17,17 @@ pub struct ProxyId(pub u32);
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 struct Proxy {
     fat: Aabb,
+    /// The fat box of the last search for pairs: what met it then is known. Nothing, if all that it meets is to be found.
+    before: Aabb,
     leaf: u32,
     /// Whether it is of those that move, which is also the number of its tree.
     moving: bool,
     /// Whether it is in the list of those that moved.
     moved: bool,
 }
+
+/// Meets nothing. (Infinities could not be serialised as text.)
+const NOTHING: Aabb = Aabb { min: vec2(Real::MAX, Real::MAX), max: vec2(Real::MIN, Real::MIN) };
 
 /// Boxes along the axes, and which of them meet.
 ///
@@ -95,11 +100,11 @@ impl BroadPhase {
         let id = if self.free == NONE { self.proxies.len() as u32 } else { self.free };
         let leaf = self.trees[usize::from(moving)].insert(fat, id);
         if self.free == NONE {
-            self.proxies.push(Proxy { fat, leaf, moving, moved: false });
+            self.proxies.push(Proxy { fat, before: NOTHING, leaf, moving, moved: false });
         } else {
             let proxy = &mut self.proxies[id as usize];
             self.free = proxy.leaf;
-            *proxy = Proxy { fat, leaf, moving, moved: proxy.moved };
+            *proxy = Proxy { fat, before: NOTHING, leaf, moving, moved: proxy.moved };
         }
         self.touch(ProxyId(id));
         ProxyId(id)
@@ -110,10 +115,9 @@ impl BroadPhase {
         self.log = None;
         let Proxy { leaf, moving, moved, .. } = *self.proxy(id);
         self.trees[usize::from(moving)].remove(leaf);
-        // If it moved it stays in the list, and meets nothing. (Infinities could not be serialised as text.)
-        let nothing = Interval { min: Real::MAX, max: Real::MIN };
-        let fat = Aabb::new(nothing, nothing);
-        self.proxies[id.0 as usize] = Proxy { fat, leaf: self.free, moving, moved };
+        // If it moved it stays in the list, and meets nothing.
+        self.proxies[id.0 as usize] =
+            Proxy { fat: NOTHING, before: NOTHING, leaf: self.free, moving, moved };
         self.free = id.0;
     }
 
@@ -121,24 +125,28 @@ impl BroadPhase {
     /// Nothing happens while that lies in the fat box, unless the fat box is more than three margins too large
     /// somewhere. Returns whether the fat box changed; then it counts as moved.
     pub fn update(&mut self, id: ProxyId, tight: &Aabb, margin: Real) -> bool {
-        let fits = self.fits(id, tight, margin);
+        let fits = self.fits(id, (tight, tight), margin);
         if !fits {
             self.replace(id, tight.grown(margin));
         }
         !fits
     }
 
-    /// The same for one of many; what is asked before [`BroadPhase::settle`] may miss it.
-    pub fn post(&mut self, id: ProxyId, tight: &Aabb, margin: Real) {
-        if !self.fits(id, tight, margin) {
-            self.posted.push((id, tight.grown(margin)));
+    /// The same for one of many, which is expected to go on by `ahead` (m); the fat box then spans that way as well, so that the next
+    /// few steps change nothing. What is asked before [`BroadPhase::settle`] may miss it.
+    pub fn post(&mut self, id: ProxyId, tight: &Aabb, margin: Real, ahead: Vec2) {
+        let shifted = |by: Vec2| Aabb { min: tight.min + by, max: tight.max + by };
+        let onward = tight.merged(&shifted(ahead));
+        if !self.fits(id, (tight, &onward.merged(&shifted(-ahead))), margin) {
+            self.posted.push((id, onward.grown(margin)));
         }
     }
 
-    fn fits(&self, id: ProxyId, tight: &Aabb, margin: Real) -> bool {
+    /// Whether a fat box holds a tight one and is not more than three margins larger than it has to be for a loose one.
+    fn fits(&self, id: ProxyId, (tight, loose): (&Aabb, &Aabb), margin: Real) -> bool {
         const LOOSEST: Real = 4.0;
         let fat = &self.proxy(id).fat;
-        fat.contains_box(tight) && tight.grown(LOOSEST * margin).contains_box(fat)
+        fat.contains_box(tight) && loose.grown(LOOSEST * margin).contains_box(fat)
     }
 
     /// Takes in what was posted. A few boxes get new places in the trees; where many move, the trees keep their form and all
@@ -151,7 +159,7 @@ impl BroadPhase {
                 let Proxy { leaf, moving, .. } = *self.proxy(id);
                 self.trees[usize::from(moving)].set(leaf, fat);
                 self.proxies[id.0 as usize].fat = fat;
-                self.touch(id);
+                self.count_as_moved(id);
             }
             self.trees.iter_mut().for_each(Tree::refit);
         }
@@ -170,7 +178,7 @@ impl BroadPhase {
         self.trees[usize::from(moving)].replace(leaf, fat);
         self.proxies[id.0 as usize].fat = fat;
         self.note(Edit::Replace(id, fat));
-        self.touch(id);
+        self.count_as_moved(id);
     }
 
     /// Counts a box among those that move, or among those that stand still. If it changes sides it counts as
@@ -188,13 +196,18 @@ impl BroadPhase {
         self.touch(id);
     }
 
-    /// Makes a box count as moved, so that its pairs are found again: after its filter changed, say.
+    /// Makes all pairs of a box be found again: after its filter changed, say.
     pub fn touch(&mut self, id: ProxyId) {
+        self.proxies[id.0 as usize].before = NOTHING;
+        self.count_as_moved(id);
+        self.note(Edit::Touch(id));
+    }
+
+    fn count_as_moved(&mut self, id: ProxyId) {
         let proxy = &mut self.proxies[id.0 as usize];
         if !proxy.moved {
             proxy.moved = true;
             self.moved.push(id);
-            self.note(Edit::Touch(id));
         }
     }
 
@@ -234,7 +247,9 @@ impl BroadPhase {
 
     fn forget_moved(&mut self) {
         for id in self.moved.drain(..) {
-            self.proxies[id.0 as usize].moved = false;
+            let proxy = &mut self.proxies[id.0 as usize];
+            proxy.moved = false;
+            proxy.before = proxy.fat;
         }
     }
 
@@ -245,9 +260,9 @@ impl BroadPhase {
 
 /// Asking.
 impl BroadPhase {
-    /// Calls `found` with every pair of fat boxes that meet, of which at least one moved since the last call and
-    /// at least one is of those that move, and that `allow` allows. Each pair comes once, the smaller number
-    /// first; pairs that met before come again. The cost goes with what moved.
+    /// Calls `found` with every pair of fat boxes that meet and did not in the last call, of which at least one is of those that move,
+    /// and that `allow` allows. Each pair comes once, the smaller number first. Pairs that met before come again only after
+    /// [`BroadPhase::touch`] of one of them. The cost goes with what moved.
     pub fn find_pairs(
         &mut self,
         mut allow: impl FnMut(ProxyId, ProxyId) -> bool,
@@ -278,7 +293,7 @@ impl BroadPhase {
         }
         let mut see = |a: u32, b: u32| {
             let (a, b) = (ProxyId(a.min(b)), ProxyId(a.max(b)));
-            if allow(a, b) {
+            if !met_before(proxies, [a, b]) && allow(a, b) {
                 found(a, b);
             }
         };
@@ -301,7 +316,7 @@ impl BroadPhase {
                 // If both moved, the one with the smaller number finds the pair.
                 let twice = proxies[other as usize].moved && other <= id.0;
                 let pair = (id.min(ProxyId(other)), id.max(ProxyId(other)));
-                if !twice && allow(pair.0, pair.1) {
+                if !twice && !met_before(proxies, pair.into()) && allow(pair.0, pair.1) {
                     found(pair.0, pair.1);
                 }
                 true
@@ -316,6 +331,18 @@ impl BroadPhase {
     #[must_use]
     pub fn overlaps(&self, a: ProxyId, b: ProxyId) -> bool {
         self.proxy(a).fat.overlaps(&self.proxy(b).fat)
+    }
+
+    /// Whether a box counts as moved since the last search for pairs.
+    #[must_use]
+    pub fn has_moved(&self, id: ProxyId) -> bool {
+        self.proxy(id).moved
+    }
+
+    /// Whether any does.
+    #[must_use]
+    pub fn has_any_moved(&self) -> bool {
+        !self.moved.is_empty()
     }
 
     /// The fat box.
@@ -375,6 +402,12 @@ impl BroadPhase {
             leaves: [still.check(), moving.check()],
         }
     }
+}
+
+/// Whether two fat boxes met in the last search for pairs.
+fn met_before(proxies: &[Proxy], pair: [ProxyId; 2]) -> bool {
+    let [a, b] = pair.map(|id| &proxies[id.0 as usize].before);
+    a.overlaps(b)
 }
 
 /// How good the trees are, of what stands still and of what moves. For tests and tuning.

@@ -3,7 +3,7 @@
 use super::hooks::{ContactHooks, allowed};
 use super::near::{Apart, Kind};
 use super::view::place_of;
-use super::{Contacts, FAR, Near, Patch, margin, swept};
+use super::{Contacts, FAR, Near, Patch, ahead, margin, swept};
 use crate::body::{Bodies, Mixing, Role};
 use crate::collision::{Collider, Frame, Manifold, ProxyId, collide};
 use crate::constraints::contact::{Touch, moved};
@@ -88,7 +88,8 @@ impl Contacts {
             let mut width = Real::INFINITY;
             for proxy in &self.of_body[i] {
                 let collider = &self.entries[proxy.0 as usize].collider;
-                self.broad.post(*proxy, &swept(collider, &frame, motion, spread), margin(collider));
+                let tight = swept(collider, &frame, motion, spread);
+                self.broad.post(*proxy, &tight, margin(collider), ahead(collider, motion.0));
                 width = width.min(collider.width);
             }
             self.covered[i] = motion.0.norm().max(spread) + 0.5 * width;
@@ -99,13 +100,14 @@ impl Contacts {
         self.moved.clear();
     }
 
-    /// Takes in pairs whose boxes have met, and drops those whose boxes have parted.
+    /// Drops pairs whose boxes have parted, and takes in those whose boxes have met.
     fn pair_up(
         &mut self,
         bodies: &Bodies,
         mixing: &Mixing,
         hooks: Option<&dyn ContactHooks>,
     ) -> Result<()> {
+        self.drop_parted(bodies);
         let mut broad = std::mem::take(&mut self.broad);
         let Self { entries, map, .. } = &*self;
         let allow = |a: ProxyId, b: ProxyId| {
@@ -153,12 +155,21 @@ impl Contacts {
             };
             self.take_in(pair, bodies);
         }
+        Ok(())
+    }
+
+    /// Drops pairs whose boxes have parted, or that a joint keeps apart.
+    fn drop_parted(&mut self, bodies: &Bodies) {
+        if !self.broad.has_any_moved() && self.apart.is_empty() {
+            return;
+        }
         let parted = |pair: &Near, own: &Self| {
-            !own.broad.overlaps(pair.proxies[0], pair.proxies[1])
+            let [a, b] = pair.proxies;
+            let moved = own.broad.has_moved(a) || own.broad.has_moved(b);
+            (moved && !own.broad.overlaps(a, b))
                 || own.kept_apart(pair.proxies.map(|proxy| own.body_of(proxy) as usize))
         };
         self.drop_near(bodies.handles(), parted);
-        Ok(())
     }
 
     /// Whether a joint keeps two bodies from touching each other.
