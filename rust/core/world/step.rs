@@ -63,6 +63,7 @@ impl World {
         if self.notices() {
             self.stage("events", |world| {
                 world.notice();
+                world.state.contacts.line_up(world.scratch.contacts.patches());
                 Ok(())
             })?;
         }

@@ -33,8 +33,8 @@ impl Contacts {
 
     /// Keeps pairs and their patches in memory as the groups of a step go through them, `places` being the patches in that order:
     /// large worlds would wait for memory otherwise. Pairs that are in no group come last. Nothing is moved while few are out of
-    /// their place.
-    pub(super) fn line_up(&mut self, places: impl Iterator<Item = u32> + Clone) {
+    /// their place. The groups must be those of the present patches.
+    pub(in crate::world) fn line_up(&mut self, places: impl Iterator<Item = u32> + Clone) {
         let turns = places.clone().zip(places.clone().skip(1));
         let wrong = turns.filter(|(before, after)| after < before).count();
         if SCATTERED * wrong <= self.patches.len() {

@@ -123,7 +123,6 @@ impl World {
         contacts.see_touching(bodies, state.settings.gravity, &mut scratch.contacts);
         let time = state.clock.now;
         contacts.touching.tell(time, events);
-        contacts.line_up(scratch.contacts.patches());
         let first = events.hit.partition_point(|hit| hit.time < scratch.contacts.start);
         events.hit[first..].sort_by(|a, b| a.time.total_cmp(&b.time));
     }
