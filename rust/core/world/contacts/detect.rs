@@ -79,20 +79,28 @@ impl Contacts {
     fn follow(&mut self, bodies: &Bodies, moving: &[u32], step: &Step) {
         let moved = std::mem::take(&mut self.moved);
         self.far = false;
+        self.room.clear();
+        self.room.resize(bodies.len(), 0.0);
         for body in moved.iter().chain(moving) {
             let i = *body as usize;
             let frame = Frame::of(&bodies.poses[i]);
             self.frames[i] = frame;
             let motion = step.motion(bodies, i);
             let spread = self.spread_of([i]);
-            let mut width = Real::INFINITY;
+            let entry = |proxy: &ProxyId| &self.entries[proxy.0 as usize];
+            let width = self.of_body[i].iter().map(|proxy| entry(proxy).collider.width);
+            let width = width.fold(Real::INFINITY, Real::min);
+            let bounces = self.of_body[i].iter().any(|proxy| entry(proxy).bounces);
+            let room = if bounces { (ROOM * width).min(2.0 * motion.0.norm()) } else { 0.0 };
             for proxy in &self.of_body[i] {
-                let collider = &self.entries[proxy.0 as usize].collider;
-                let tight = swept(collider, &frame, motion, spread);
+                let collider = &entry(proxy).collider;
+                let tight = swept(collider, &frame, motion, spread).grown(room);
                 self.broad.post(*proxy, &tight, margin(collider), ahead(collider, motion.0));
-                width = width.min(collider.width);
             }
-            self.covered[i] = motion.0.norm().max(spread) + 0.5 * width;
+            // An impact that is missed costs energy, one that rows meet late is parted by and by.
+            let beyond = if bounces { room + 0.5 * MARGIN * width } else { 0.5 * width };
+            self.covered[i] = motion.0.norm().max(spread) + beyond;
+            self.room[i] = room;
             self.far |= spread > 0.0 || motion.0.norm() > FAR * width || motion.1 > FAR;
         }
         self.broad.settle();
@@ -179,8 +187,8 @@ impl Contacts {
 
     /// Narrow phase over all pairs. Points whose features were there before keep their impulses.
     fn find_manifolds(&mut self, bodies: &Bodies, step: &Step, found: &mut Vec<Manifold>) {
-        let Self { entries, near, patches, before, frames, spread, .. } = self;
-        let spread = |i: usize| spread.get(i).copied().unwrap_or_default();
+        let Self { entries, near, patches, before, frames, spread, room, .. } = self;
+        let spread = |i: usize| spread.get(i).copied().unwrap_or_default() + room[i];
         std::mem::swap(patches, before);
         patches.clear();
         for (place, pair) in near.iter_mut().enumerate() {
@@ -192,7 +200,7 @@ impl Contacts {
             let [x, y] = pair.proxies.map(|proxy| &entries[proxy.0 as usize].collider);
             let [i, j] = [x.body as usize, y.body as usize];
             let way = way_to_meet(bodies, step, [x, y], pair.touch.restitution);
-            let margin = 0.02 * x.width.min(y.width) + way + spread(i) + spread(j);
+            let margin = MARGIN * x.width.min(y.width) + way + spread(i) + spread(j);
             let stands = frames[j].seen_from(&frames[i]);
             if pair.kind == Kind::Solid && pair.apart.holds(&stands, y.reach, margin) {
                 continue;
@@ -213,6 +221,12 @@ impl Contacts {
         }
     }
 }
+
+/// How far beyond their own ways shapes are looked for, as a part of the smaller width.
+const MARGIN: Real = 0.02;
+
+/// How far beyond its way a body that bounces may be thrown before the step is taken again, as a part of its width.
+const ROOM: Real = 0.25;
 
 /// Overlap, as a part of the smaller width, with which a shape still counts as wholly on one side of a platform.
 const ONE_WAY_SLOP: Real = 1e-3;

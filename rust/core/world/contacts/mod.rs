@@ -44,6 +44,8 @@ pub(super) struct Entry {
     pub collider: Collider,
     pub filter: Filter,
     pub role: Role,
+    /// Whether its surface has restitution.
+    pub bounces: bool,
 }
 
 /// All that detection keeps between steps.
@@ -86,6 +88,9 @@ pub(super) struct Contacts {
     /// order.
     #[serde(skip)]
     covered: Vec<Real>,
+    /// How far each body may be thrown beyond its own way without that being looked for anew (m), in body order.
+    #[serde(skip)]
+    room: Vec<Real>,
     /// Bodies, in pairs, that a joint keeps from touching each other.
     #[serde(skip)]
     pub apart: FxHashSet<[u32; 2]>,
@@ -222,7 +227,9 @@ impl Contacts {
         let moving = def.kind != crate::body::BodyKind::Static;
         for collider in colliders(body as u32, &def.shapes, bodies.local_centers[body]) {
             let part = &def.shapes[collider.part as usize];
-            let entry = Entry { filter: def.filter_of(part), role: def.role_of(part), collider };
+            let (filter, role) = (def.filter_of(part), def.role_of(part));
+            let bounces = def.surface_of(part).restitution > 0.0;
+            let entry = Entry { filter, role, bounces, collider };
             let (tight, margin) =
                 (entry.collider.geometry.bounds_at(&frame), margin(&entry.collider));
             let proxy = self.broad.insert(&tight, margin, moving);
