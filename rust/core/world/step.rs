@@ -354,16 +354,24 @@ impl World {
             return Err(Error::NotFinite { time, what: "position or velocity", body, hint });
         }
         if plan.softs > 0 {
-            if let Some(body) = self.soft_bodies().iter().position(|body| !body.is_finite()) {
-                let (time, what) = (self.time(), "a node of the soft body");
-                let hint = "check forces, velocities and dt; the world is as before the call";
-                return Err(Error::NotFinite { time, what, body, hint });
-            }
-            self.notice_softs();
+            self.finish_softs()?;
         }
         if std::mem::take(&mut self.applied) {
             self.state.bodies.applied.fill(Wrench::ZERO);
         }
+        Ok(())
+    }
+
+    /// The same for deformable bodies; apart, so that worlds without them do not pay for it.
+    #[cold]
+    #[inline(never)]
+    fn finish_softs(&mut self) -> Result<()> {
+        if let Some(body) = self.soft_bodies().iter().position(|body| !body.is_finite()) {
+            let (time, what) = (self.time(), "a node of the soft body");
+            let hint = "check forces, velocities and dt; the world is as before the call";
+            return Err(Error::NotFinite { time, what, body, hint });
+        }
+        self.notice_softs();
         Ok(())
     }
 }

@@ -118,6 +118,49 @@ impl ContactScratch {
         (0..self.groups()).all(|k| self.leaves(k))
     }
 
+    /// Begins a split: no links, and no body is moved in a group. Fields move all.
+    fn begin(&mut self, bodies: usize, fields: bool) {
+        // What was marked in the last step, so that those that sleep cost nothing.
+        for i in self.links.drain(..).flatten() {
+            self.moved.get_mut(i as usize).into_iter().for_each(|moved| *moved = false);
+        }
+        self.solid.clear();
+        self.ranks.clear();
+        if fields {
+            self.moved.clear();
+        }
+        self.moved.resize(bodies, false);
+        self.thrown.clear();
+    }
+
+    /// Links what touches or may touch.
+    fn link_contacts(&mut self, state: &State) {
+        let State { bodies, contacts, .. } = state;
+        let up = upwards(state.settings.gravity);
+        for near in contacts.near.iter().filter(|near| near.count > 0 && near.resists()) {
+            let pair = near.proxies.map(|proxy| contacts.body_of(proxy));
+            let rank = contacts.rank(near, bodies, up);
+            for place in near.patches() {
+                if self.answers.get(place).is_some_and(|answer| !answer.on) {
+                    continue;
+                }
+                self.links.push(pair);
+                self.solid.push(place as u32);
+                // What bore nothing comes last: eight that are idle cost little, one among seven that are not as much as
+                // those.
+                let idle = !contacts.patches[place].bears();
+                self.ranks.push((idle, rank, place as u32 - near.first));
+                for i in pair.map(|i| i as usize) {
+                    let asleep = contacts.is_asleep(i);
+                    self.moved[i] = bodies.masses[i].is_free() && !asleep;
+                    // One that strikes a sleeping one takes the step again.
+                    self.watched |= asleep;
+                }
+                self.watched |= near.touch.restitution > 0.0;
+            }
+        }
+    }
+
     /// Forgets the groups, where there is nothing to look for.
     pub fn forget(&mut self) {
         self.islands.clear();
@@ -134,51 +177,13 @@ impl World {
         let meets = plan.as_ref().is_some_and(|plan| !plan.colliding.is_empty());
         let (contacts, masses) = (&state.contacts, &state.bodies.masses);
         let gives_way = |i: u32| masses[i as usize].is_free() && !contacts.is_asleep(i as usize);
-        let ContactScratch {
-            islands,
-            links,
-            solid,
-            ranks,
-            joined,
-            moved,
-            answers,
-            thrown,
-            watched,
-            ..
-        } = &mut scratch.contacts;
-        // What was marked in the last step, so that those that sleep cost nothing.
-        for i in links.drain(..).flatten() {
-            moved.get_mut(i as usize).into_iter().for_each(|moved| *moved = false);
-        }
-        solid.clear();
-        ranks.clear();
         let fields = plan.as_ref().is_some_and(|plan| plan.together > 0);
-        if fields {
-            moved.clear();
+        scratch.contacts.begin(masses.len(), fields);
+        scratch.contacts.watched = contacts.far;
+        if meets {
+            scratch.contacts.link_contacts(state);
         }
-        moved.resize(masses.len(), false);
-        thrown.clear();
-        *watched = contacts.far;
-        let up = upwards(state.settings.gravity);
-        let near = if meets { &contacts.near[..] } else { &[] };
-        for near in near.iter().filter(|near| near.count > 0 && near.resists()) {
-            let bodies = near.proxies.map(|proxy| contacts.body_of(proxy));
-            let rank = contacts.rank(near, &state.bodies, up);
-            for place in near.patches() {
-                if answers.get(place).is_some_and(|answer| !answer.on) {
-                    continue;
-                }
-                links.push(bodies);
-                solid.push(place as u32);
-                // What bore nothing comes last: eight that are idle cost little, one among seven that are not as much as
-                // those.
-                ranks.push((!contacts.patches[place].bears(), rank, place as u32 - near.first));
-                *watched |= near.touch.restitution > 0.0;
-                bodies.iter().for_each(|i| moved[*i as usize] = gives_way(*i));
-                // One that strikes a sleeping one takes the step again.
-                *watched |= bodies.iter().any(|i| contacts.is_asleep(*i as usize));
-            }
-        }
+        let ContactScratch { islands, links, ranks, joined, moved, .. } = &mut scratch.contacts;
         joined.clear();
         for (place, joint) in state.joints.values().iter().enumerate() {
             let Some(pair) = tied(&state.bodies, joint) else { continue };
@@ -204,7 +209,9 @@ impl World {
         } else {
             islands.split(masses.len(), links, gives_way);
         }
-        islands.arrange(ranks.len(), |link| ranks[link as usize]);
+        if !ranks.is_empty() {
+            islands.arrange(ranks.len(), |link| ranks[link as usize]);
+        }
         self.leave_to_method();
     }
 
