@@ -39,23 +39,23 @@ fn disks_that_graze_keep_their_energy() {
 }
 
 /// 100 disks of 0.6 m in a box of 20 × 20 m, in rows.
-fn gas(velocities: &[Vec2]) -> World {
-    let mut world = World::new(vec2(0.0, -10.0)).unwrap();
+fn gas(velocities: &[Vec2]) -> culbuto::Result<World> {
+    let mut world = World::new(vec2(0.0, -10.0))?;
     for side in [-10.5, 10.5] {
         let walls = [(vec2(side, 0.0), [1.0, 22.0]), (vec2(0.0, side), [22.0, 1.0])];
         for (position, [width, height]) in walls {
-            let shape = Shape::rectangle(width, height).unwrap();
+            let shape = Shape::rectangle(width, height)?;
             let (kind, surface) = (BodyKind::Static, elastic());
-            world.add_body(BodyDef { kind, position, surface, ..BodyDef::new(shape) }).unwrap();
+            world.add_body(BodyDef { kind, position, surface, ..BodyDef::new(shape) })?;
         }
     }
     for (k, velocity) in velocities.iter().enumerate() {
         let position = vec2(2.0 * (k % 10) as Real - 9.0, 2.0 * (k / 10) as Real - 9.0);
         let (velocity, surface) = (*velocity, elastic());
-        let shape = Shape::circle(0.3).unwrap();
-        world.add_body(BodyDef { position, velocity, surface, ..BodyDef::new(shape) }).unwrap();
+        let shape = Shape::circle(0.3)?;
+        world.add_body(BodyDef { position, velocity, surface, ..BodyDef::new(shape) })?;
     }
-    world
+    Ok(world)
 }
 
 proptest! {
@@ -67,7 +67,7 @@ proptest! {
     fn a_gas_under_gravity_keeps_its_energy(
         velocities in prop::collection::vec((-5.0..5.0_f64, -5.0..5.0_f64).prop_map(|(x, y)| vec2(x, y)), 100),
     ) {
-        let mut world = gas(&velocities);
+        let mut world = gas(&velocities).unwrap();
         let before = world.energy().unwrap();
         for step in 0..1800 {
             world.step(1.0 / 60.0).unwrap();
