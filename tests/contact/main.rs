@@ -8,6 +8,7 @@ mod joined;
 mod laws;
 mod rest;
 mod rollback;
+mod seams;
 mod solvers;
 mod surfaces;
 #[path = "../common/worlds.rs"]

@@ -25,7 +25,12 @@ pub(super) struct Above {
     stretch: [Real; 2],
     /// The other core's edge ends before the face begins: what stands here is its deepest vertex.
     pub beside: bool,
+    /// The other core's edge and the face share next to nothing of their lengths.
+    pub grazes: bool,
 }
+
+/// Part of an edge's length that is next to nothing: twice what overlap is left alone.
+const GRAZE: Real = 1e-3;
 
 /// A point of the other core: along the face, above it, in its own frame, and its feature.
 #[derive(Clone, Copy)]
@@ -54,7 +59,8 @@ impl Face<'_> {
         };
         let deepest = Point { height: separation, ..point(vertex) };
         let is_beside = |p: &Point| p.along < stretch[0] || p.along > stretch[1];
-        let single = Above { points: [deepest; 2], count: 1, stretch, beside: is_beside(&deepest) };
+        let beside = is_beside(&deepest);
+        let single = Above { points: [deepest; 2], count: 1, stretch, beside, grazes: false };
         let Some((edge, neighbour)) = self.incident(normal) else { return single };
         let far = point(neighbour);
         let clip = |p: Point, q: Point| self.clipped(edge, p, q, stretch);
@@ -62,12 +68,13 @@ impl Face<'_> {
             return Above { beside: true, ..single };
         };
         let shortest = (far.along - deepest.along).abs().min(stretch[1] - stretch[0]);
-        let distinct = (near.along - far_end.along).abs() > SAME * shortest;
+        let shared = (near.along - far_end.along).abs();
         Above {
             points: [near, far_end],
-            count: if distinct { 2 } else { 1 },
+            count: if shared > SAME * shortest { 2 } else { 1 },
             stretch,
             beside: false,
+            grazes: shared <= GRAZE * shortest,
         }
     }
 

@@ -1,7 +1,7 @@
 //! Joints that hold a point of matter: their rows among those of the points of contact, through A⁻¹.
 //!
 //! A point that is held moves by half the sum of its velocities before and after the substep, so its middle is that of the implicit step
-//! ([`Matter::lead`]). Rows are taken there: what one end gets at that point the other gets there as well, so that angular momentum is kept, and a row
+//! (`Matter::lead`). Rows are taken there: what one end gets at that point the other gets there as well, so that angular momentum is kept, and a row
 //! that obeys J(v⁻ + v⁺) = 0 keeps what it holds. As the middle follows from the solution, rows are taken anew whenever the matter has settled.
 
 use super::Group;
