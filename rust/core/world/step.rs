@@ -97,7 +97,7 @@ impl World {
     /// The stages of a world in which bodies can meet. Where one is thrown farther than what it can meet was looked for,
     /// or strikes what sleeps, the step is taken again with that in view, or awake.
     fn collide_and_advance(&mut self, dt: Real) -> Result<()> {
-        let hits = self.events.hit.len();
+        let (hits, impacts) = (self.events.hit.len(), self.report.impacts);
         self.state.contacts.spread.clear();
         for tries in 1.. {
             self.stage("detect", |world| world.detect_all(dt))?;
@@ -123,6 +123,7 @@ impl World {
             self.wake_islands(&struck);
             self.planned();
             self.events.hit.truncate(hits);
+            self.report.impacts = impacts;
         }
         Ok(())
     }
