@@ -219,6 +219,25 @@ fn drains_and_lifetimes_end_particles() {
     assert!(world.fluids_mut().set_inflows(fluid, &[along]).is_err());
 }
 
+/// Rows that would be born faster than steps can follow end the call, even where a drain lets none of them stay.
+#[test]
+fn absurd_inflows_are_refused() {
+    let (mut world, fluid) = jet(0.04);
+    let inflow = world.fluids().inflows(fluid).unwrap()[0];
+    let long = Inflow { end: inflow.start + vec2(0.0, 1e9), ..inflow };
+    let far = Inflow { progress: Some(1e300), ..inflow };
+    for wrong in [long, far] {
+        assert!(world.fluids_mut().set_inflows(fluid, &[wrong]).is_err());
+    }
+    world.fluids_mut().set_drains(vec![rectangle(vec2(-10.0, -10.0), vec2(10.0, 10.0))]);
+    world.steps(DT, 2).unwrap();
+    let fast = Inflow { velocity: inflow.velocity * 1e12, ..inflow };
+    world.fluids_mut().set_inflows(fluid, &[fast]).unwrap();
+    let before = world.snapshot().to_bytes().unwrap();
+    assert!(world.step(DT).is_err());
+    assert!(world.snapshot().to_bytes().unwrap() == before, "nothing is lost");
+}
+
 #[test]
 fn streams_and_surfaces_go_on_bit_for_bit() {
     let (mut world, fluid) = jet(0.04);

@@ -97,7 +97,7 @@ impl Flow {
         let particles = &fluids.particles;
         let speeds = particles.velocities.iter().zip(&particles.compressions);
         let fastest = speeds.filter(|(_, part)| **part > ALONE).map(|(v, _)| v.norm_squared());
-        let mut fastest = fastest.fold(0.0, Real::max).sqrt();
+        let mut fastest = fastest.fold(0.0, Real::max).sqrt().max(fluids.fastest_inflow());
         let (low, high) = super::cells::bounds(&particles.positions);
         for (i, solid) in self.solids.iter().enumerate() {
             let twist = &bodies.twists[i];

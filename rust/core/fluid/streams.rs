@@ -22,18 +22,29 @@ pub struct Inflow {
     /// Velocity (m/s) of what comes out; not along the segment.
     #[schemars(with = "[Real; 2]")]
     pub velocity: Vec2,
-    /// Way (m) of the last row since it was born; none: there was no row yet.
+    /// Way (m) of the last row since it was born, up to a spacing; none: there was no row yet.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub progress: Option<Real>,
 }
 
+/// Particles that are born at once by one inflow at most.
+const MOST_IN_A_ROW: Real = 1e6;
+
 impl Inflow {
-    fn validated(self, what: &str) -> Result<Self> {
+    fn validated(self, spacing: Real, what: &str) -> Result<Self> {
         for (key, v) in [("start", self.start), ("end", self.end), ("velocity", self.velocity)] {
             check::finite_vec(&format!("{what}.{key}"), v)?;
         }
-        check::not_negative(&format!("{what}.progress"), self.progress.unwrap_or(0.0))?;
-        check::positive(&format!("{what} (its length)"), (self.end - self.start).norm())?;
+        let progress = self.progress.unwrap_or(0.0);
+        if !(0.0..=spacing).contains(&progress) {
+            return Err(Error::invalid(format!("{what}.progress"), progress, "0 to a spacing"));
+        }
+        let length = (self.end - self.start).norm();
+        check::positive(&format!("{what} (its length)"), length)?;
+        if length > MOST_IN_A_ROW * spacing {
+            let what = format!("{what} (its length)");
+            return Err(Error::invalid(what, length, "at most 10⁶ spacings"));
+        }
         if self.speed().is_nan() || self.speed() <= 1e-6 * self.velocity.norm() {
             let allowed = "a velocity across the segment";
             return Err(Error::invalid(format!("{what}.velocity"), self.velocity, allowed));
@@ -112,12 +123,13 @@ impl Fluids {
     /// Sets the inflows of a fluid. One at a segment where there was one goes on from its last row.
     ///
     /// # Errors
-    /// Numbers that are not finite, a segment without length, a velocity along it; a handle to a fluid that is gone.
+    /// Numbers that are not finite, a segment without length or longer than 10⁶ spacings, a velocity along it, a progress of more than a
+    /// spacing; a handle to a fluid that is gone.
     pub fn set_inflows(&mut self, fluid: FluidHandle, inflows: &[Inflow]) -> Result<()> {
         let before = self.inflows(fluid)?;
         let mut new = Vec::with_capacity(inflows.len());
         for (i, inflow) in inflows.iter().enumerate() {
-            let mut inflow = inflow.validated(&format!("inflows[{i}]"))?;
+            let mut inflow = inflow.validated(self.spacing, &format!("inflows[{i}]"))?;
             let same = |old: &&Inflow| (old.start, old.end) == (inflow.start, inflow.end);
             inflow.progress =
                 inflow.progress.or(before.iter().find(same).and_then(|old| old.progress));
@@ -130,6 +142,12 @@ impl Fluids {
 
     pub(super) fn forget_inflows(&mut self, kind: u32) {
         self.streams.inflows.retain(|(of, _)| *of != kind);
+    }
+
+    /// Speed (m/s) of the fastest inflow; 0 without any. Substeps are short enough for it even while none of its particles is there.
+    pub(super) fn fastest_inflow(&self) -> Real {
+        let speeds = self.streams.inflows.iter().map(|(_, inflow)| inflow.velocity.norm());
+        speeds.fold(0.0, Real::max)
     }
 
     /// Regions, in the frame of the world, whatever particle enters which is removed.

@@ -157,7 +157,7 @@ impl World {
             wet.looked = true;
         }
         let bodies = self.state.bodies.len();
-        let hits = self.events.hit.len();
+        let (hits, impacts) = (self.events.hit.len(), self.report.impacts);
         self.state.contacts.spread.clear();
         for tries in 1.. {
             self.detect_and_split(dt)?;
@@ -178,6 +178,7 @@ impl World {
             self.scratch.wet.moving.restore(&mut self.state.fluids);
             self.state.contacts.spread_out(&self.scratch.contacts.thrown);
             self.events.hit.truncate(hits);
+            self.report.impacts = impacts;
         }
         Ok(())
     }
