@@ -109,6 +109,20 @@ fn tension_keeps_momentum_and_loses_energy_only() {
     assert!(world.bodies().twists[0].linear.x > -0.59);
 }
 
+/// What adheres to a free body gives it what it takes. Its angular momentum is not judged: forces act at the body's border, not at particles.
+#[test]
+fn adhesion_keeps_momentum() {
+    let material = Material { adhesion: 1.5 * SIGMA, ..oily(0.5) };
+    let (mut world, _) = drop(0.02, 1.0, material);
+    let disk = BodyDef { position: vec2(0.3, 0.0), ..BodyDef::new(Shape::circle(0.1).unwrap()) };
+    let disk = world.add_body(disk).unwrap();
+    world.steps(DT, 60).unwrap();
+    let mass = world.mass();
+    let drawn = world.body(disk).unwrap().position().x;
+    assert!(drawn < 0.299, "it is drawn into the drop: {drawn}");
+    assert!(world.momentum().norm() < 1e-12 * mass, "{}", world.momentum());
+}
+
 /// Height over radius of what a drop on a floor takes the shape of after a while.
 fn flatness(adhesion: Real) -> Real {
     let mut world = World::new(Vec2::zeros()).unwrap();

@@ -54,6 +54,19 @@ fn a_block_that_falls_hits_begins_to_touch_and_bears_its_weight() {
     assert!(world.soft_contacts().is_empty());
 }
 
+/// What comes no faster than a substep's fall touches and does not hit.
+#[test]
+fn what_is_set_down_begins_to_touch_and_hits_nothing() {
+    let mut world = with_floor();
+    let height = world.add_soft_body(block(material(1e6, 1.0))).unwrap();
+    let radius = world.soft_body(height).unwrap().radius();
+    world.remove_soft_body(height).unwrap();
+    let def = SoftDef { position: vec2(0.0, 0.5 + radius), ..block(material(1e6, 1.0)) };
+    world.add_soft_body(def).unwrap();
+    let set_down = watch(&mut world, 1);
+    assert_eq!((set_down.begin.len(), set_down.hit.len()), (1, 0), "{set_down:?}");
+}
+
 #[test]
 fn two_that_meet_tell_of_each_other() {
     let mut world = World::new(Vec2::zeros()).unwrap();

@@ -100,6 +100,30 @@ fn a_block_hangs_on_a_spring_by_its_weight() {
     }
 }
 
+/// A spring that swings thousands of times in a step takes energy or keeps it, and never gives any.
+#[test]
+fn a_spring_that_no_step_resolves_gives_nothing() {
+    for hertz in [10.0, 1e2, 1e3, 1e4] {
+        let mut world = World::new(vec2(0.0, 0.0)).unwrap();
+        let soft = world.add_soft_body(block(material(1e6, 0.1))).unwrap();
+        let hold = Hold::Spring(Spring::new(hertz, 0.0));
+        let def = JointDef::spring(None, None, hold).anchored(vec2(0.0, 2.0), vec2(0.0, 0.5));
+        world.add_soft_joint(def, [None, Some(soft)]).unwrap();
+        // Half a metre a second away from where the spring is at rest.
+        let velocities = vec![vec2(0.0, -0.5); world.soft_body(soft).unwrap().positions().len()];
+        world.set_soft_velocities(soft, &velocities).unwrap();
+        let start = world.energy().unwrap().total();
+        for step in 0..120 {
+            world.step(STEP).unwrap();
+            let energy = world.energy().unwrap();
+            let total = energy.total();
+            assert!(total < start * (1.0 + 1e-6), "{hertz} Hz, step {step}: {total} of {start}");
+            // What the matter's own Newton iterations leave.
+            assert!((energy.balance() / start - 1.0).abs() < 1e-5, "{hertz} Hz: {energy:?}");
+        }
+    }
+}
+
 /// A small rigid hub tied to a wheel of rubber at eight points, and a motor between it and an axle that the world holds.
 fn wheel(world: &mut World, at: Vec2, speed: Real) -> (SoftHandle, BodyHandle, BodyHandle) {
     let ring = |radius: Real, n: u32| {

@@ -73,6 +73,15 @@ fn rays_meet_the_first_border_on_their_way() {
         world.cast_ray_soft(vec2(-2.0, 0.1), vec2(8.0, 0.0), &only).unwrap().unwrap().body,
         b
     );
+    // A query of a category sees those that let it in, one of a group by the group alone.
+    let mut world = world;
+    let blind = Filter { mask: 1, ..world.soft_body(a).unwrap().def().filter };
+    world.set_soft_filter(a, blind).unwrap();
+    let first = |filter: &SoftFilter<'_>| {
+        world.cast_ray_soft(vec2(-2.0, 0.1), vec2(8.0, 0.0), filter).unwrap().unwrap().body
+    };
+    assert_eq!(first(&SoftFilter { category: Some(1), ..ALL }), a);
+    assert_eq!(first(&SoftFilter { category: Some(2), ..ALL }), b);
     let not = [a];
     let but = SoftFilter { exclude: &not, ..ALL };
     assert_eq!(

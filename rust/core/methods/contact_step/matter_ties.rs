@@ -8,7 +8,7 @@ use super::Group;
 use super::joints::{self, Row, State};
 use super::matter::{Matters, Scratch};
 use super::matter_lever::Lever;
-use crate::constraints::joint::{self, Action, Gains, Law, Pair, Rates, Rows};
+use crate::constraints::joint::{self, Action, Gains, Law, Pair, Rows};
 use crate::forces::Ledger;
 use crate::joint::ROWS;
 use crate::math::{Real, Rot, Twist, Vec2, cross, hypot, sin_cos, vec2};
@@ -270,24 +270,23 @@ impl Scratch {
         }
         let mut scale: Real = 0.0;
         for t in 0..self.ties.len() {
-            let rates = self.rates_around(t);
+            let rate = self.damping_around(t);
             for k in 0..self.ties[t].middle.count {
                 let lever = self.lever_of_row(t, k);
                 scale = scale.max(self.velocity_along(group, &lever).abs());
-                self.ties[t].aim(k, (group, &rates), h);
+                self.ties[t].aim(k, (group, rate), h);
             }
         }
         scale
     }
 
-    /// Sums over the springs of all joints that share an end with joint t.
-    fn rates_around(&self, t: usize) -> Rates {
-        let mut sum = Rates::default();
+    /// Γ (1/s): the sum over the springs of all joints that share an end with joint t.
+    fn damping_around(&self, t: usize) -> Real {
+        let mut sum = 0.0;
         for other in self.ties.iter().filter(|other| other.holds_what(&self.ties[t])) {
             for (row, response) in other.middle.as_slice().iter().zip(other.response) {
                 let Action::Spring(spring) = row.action else { continue };
-                sum.stiffness += spring.stiffness * response;
-                sum.damping += spring.damping * response;
+                sum += spring.damping * response;
             }
         }
         sum
@@ -487,8 +486,8 @@ impl Scratch {
 }
 
 impl MatterTie {
-    /// What row k asks for.
-    fn aim(&mut self, k: usize, (group, rates): (&Group, &Rates), h: Real) {
+    /// What row k asks for; springs around it damp at this rate (1/s).
+    fn aim(&mut self, k: usize, (group, rate): (&Group, Real), h: Real) {
         let (now, start) = (&self.middle.rows[k], &self.start.rows[k]);
         let before = [&self.before[0], &self.before[1]];
         let along = now.velocity(before);
@@ -526,7 +525,7 @@ impl MatterTie {
                 row.wanted = joints::reach(row.impulse > 0.0, self.drifted[k], curve, h).0;
             }
             Action::Spring(spring) => {
-                let gains = Gains::new(&spring, rates, h);
+                let gains = Gains::midpoint(&spring, rate, h);
                 if gains.after > 0.0 {
                     row.compliance = 1.0 / gains.after;
                     row.wanted =
