@@ -120,14 +120,19 @@ def test_a_nozzle_a_drain_and_a_lifetime() -> None:
 def test_scene_files_hold_fluids() -> None:
     world, water = tank()
     water.inflows = [cb.Inflow((0.2, 0.4), (0.4, 0.4), (0, 1))]
-    world.add_fluid([[0.5, 1.0]], spacing=0.05, density=500, name="drop")
+    drop = world.add_fluid([[0.5, 1.0]], spacing=0.05, density=500, name="drop")
+    drop.tension, drop.adhesion, drop.lifetime = 0.2, 0.1, 8.5 * DT
     world.drains = [cb.Circle(0.1, center=(0.9, 0.1))]
     world.step(DT, steps=5)
     file = cb.SceneFile.from_world(world)
     other = cb.SceneFile.from_json(file.to_json()).world()
-    assert other.fluids[1].name == "drop"
+    held = other.fluids[1]
+    assert (held.name, held.density, held.viscosity) == ("drop", 500, drop.viscosity)
+    assert (held.tension, held.adhesion, held.lifetime) == (0.2, 0.1, 8.5 * DT)
+    assert len(held) == 1
     for each in (world, other):
         each.step(DT, steps=5)
+    assert len(held) == 0
     for fluid, copied in zip(world.fluids, other.fluids, strict=True):
         np.testing.assert_array_equal(fluid.positions, copied.positions)
 
