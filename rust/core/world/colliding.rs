@@ -135,6 +135,8 @@ impl World {
         let rest = run.duration - run.passed;
         let mut dt = run.stretch.min(rest);
         let short = self.state.contacts.short_stretch(&self.state.bodies, |i| self.pull(i));
+        // What is as fast as numbers go makes no stretch so short that it leads nowhere.
+        let short = short.max(rest / MOST_STEPS as Real);
         let mut thrown: Vec<(u32, Real)> = Vec::new();
         for _ in 0..MOST_THROWN {
             if !self.find_groups(&mut dt, short, &thrown)? {

@@ -262,8 +262,9 @@ impl Contacts {
         pull: impl Fn(usize) -> Vec2,
     ) {
         let spread = |i: usize| {
-            let colliders = self.of_body[i].iter().map(|p| &self.entries[p.0 as usize].collider);
-            let sizes = colliders.map(|collider| (collider.width, collider.reach));
+            let entries = || self.of_body[i].iter().map(|p| &self.entries[p.0 as usize]);
+            let bounces = entries().any(|entry| entry.bounces);
+            let sizes = entries().map(|entry| (entry.collider.width, entry.collider.reach));
             let (width, reach) = sizes.fold((0.0, 0.0), |(w, r): (Real, Real), (width, reach)| {
                 (w.max(width), r.max(reach))
             });
@@ -274,8 +275,10 @@ impl Contacts {
             let turn = (twist.angular.abs() * dt).min(2.0);
             let way = twist.linear.norm() * dt + 0.5 * pull(i).norm() * dt * dt + turn * reach;
             let way = 1.1 * way + 0.01 * width;
-            // Boxes have a margin for short ways, and are grown all around for those that count as far.
-            if way > 0.5 * MARGIN * width { way.max(1.01 * FAR * width) } else { way }
+            // Boxes have a margin for short ways, and are grown all around for those that count as far: also for what bounces, which may be
+            // thrown while it rests.
+            let far = bounces || way > 0.5 * MARGIN * width;
+            if far { way.max(1.01 * FAR * width) } else { way }
         };
         self.spread = (0..self.of_body.len()).map(spread).collect();
     }
