@@ -64,8 +64,10 @@ impl Jacobian {
         y.slope_of_stage(HERE, system, time)?;
         for k in 0..2 * n {
             let component = k % n;
-            // What moves as it is given does so whatever forces there are.
-            if !system.forces.masses[component / 3].is_free() {
+            // What moves as it is given does so whatever forces there are; an axis that is locked stays to the last bit, with nothing in its
+            // row and column that an exchange of rows could bring in.
+            let mass = &system.forces.masses[component / 3];
+            if [mass.inverse.x, mass.inverse.y, mass.inverse_inertia][component % 3] == 0.0 {
                 continue;
             }
             let shift = if k < n {
