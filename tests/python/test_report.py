@@ -14,6 +14,7 @@ import pytest
 import culbuto
 from culbuto.catalogue import find
 from culbuto.report.measure import Results, measure, write_rows
+from culbuto.report.needs import counts
 from culbuto.study import Row
 
 NAMES = ("projectile", "kepler", "polygons")
@@ -144,3 +145,32 @@ def test_the_first_figure_is_a_file_of_its_own(page: Path) -> None:
     ET.fromstring(text)  # noqa: S314 — our own
     assert "prefers-color-scheme: dark" in text
     assert "<text" in text  # letters stay letters
+
+
+def test_the_page_says_what_ten_scenes_and_each_absent_feature_cost(
+    results: Results, page: Path
+) -> None:
+    assert len(results.needs) == 10
+    for need in results.needs:
+        counted = need.counted
+        assert counted is not None, f"{need.scene} was not counted: make needs"
+        assert list(counted.stages) == list(need.stages)
+        assert sum(counted.stages.values()) < 2 * counted.step
+        full = counted.everything
+        assert full is not None
+        assert full.step > counted.step
+        assert full.bytes > counted.bytes
+    text = (page / "index.html").read_text("utf-8")
+    found = counts()
+    assert found.versions in unescape(text)
+    assert {one.feature for one in found.features} >= {
+        "air",
+        "contact",
+        "joint",
+        "fluid",
+        "sleeping",
+    }
+    for one in found.features:
+        assert one.feature in text
+        assert one.had == pytest.approx(one.never, rel=2e-3), "a feature that is absent costs"
+        assert one.there > one.never or one.feature == "sleeping"

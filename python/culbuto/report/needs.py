@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import copy
-import pickle
+import json
 from dataclasses import dataclass
+from importlib.resources import files
 from statistics import median
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from culbuto import _native, catalogue
 from culbuto.joints import RevoluteJoint
@@ -29,40 +30,93 @@ FAR = 1e4  # m: what is added meets nothing that was there
 class Need:
     """What a scene takes a step, and what it would take with everything switched on.
 
-    `stages` (s a step) are those that run; `seconds` and `everything` a step without timing the
-    stages; `memory` and `memory_of_everything` what a world takes when it is stored (bytes).
+    `stages` (s a step) are those that run; `seconds` and `seconds_of_everything` a step without
+    timing the stages. `counted` is the same in instructions, where they were counted.
     """
 
     scene: str
     bodies: int
     stages: dict[str, float]
     seconds: float
-    memory: int
-    everything: float
-    memory_of_everything: int
+    seconds_of_everything: float
+    counted: Counted | None
+
+
+@dataclass(frozen=True)
+class Counted:
+    """What a world takes by counting: instructions a step and of each stage, bytes on the heap.
+
+    `everything` is the same world with everything switched on, None of that one.
+    """
+
+    step: float
+    stages: dict[str, float]
+    bytes: int
+    everything: Counted | None = None
+
+    @classmethod
+    def of(cls, entry: dict[str, Any]) -> Counted:
+        """From the JSON of a run."""
+        full = entry.get("everything")
+        more = None if full is None else cls.of(full)
+        return cls(entry["step"], entry["stages"], entry["bytes"], more)
+
+
+@dataclass(frozen=True)
+class Feature:
+    """Instructions a step of a world that never had a feature, had it, and has it."""
+
+    world: str
+    feature: str
+    never: float
+    had: float
+    there: float
+
+
+@dataclass(frozen=True)
+class Counts:
+    """A run of `make needs`, which comes with the package, since valgrind is not everywhere."""
+
+    machine: str
+    versions: str
+    date: str
+    scenes: dict[str, Counted]
+    features: tuple[Feature, ...]
+
+
+def counts() -> Counts:
+    """The run that comes with the package."""
+    found = json.loads(files("culbuto.report").joinpath("counted.json").read_text("utf-8"))
+    scenes = {entry["scene"]: Counted.of(entry) for entry in found["scenes"]}
+    features = tuple(Feature(**entry) for entry in found["features"])
+    return Counts(found["machine"], found["versions"], found["date"], scenes, features)
+
+
+def step_of(scene: catalogue.Scene) -> float:
+    """The step (s) that a scene is measured at here."""
+    return min(scene.dt or 1 / 60, 1 / 60)
 
 
 def needs(names: tuple[str, ...] = TYPICAL) -> list[Need]:
     """Measures the scenes of these names."""
-    return [_need(catalogue.find(name)) for name in names]
+    there = counts().scenes
+    return [_need(catalogue.find(name), there.get(name)) for name in names]
 
 
-def _need(scene: catalogue.Scene) -> Need:
+def _need(scene: catalogue.Scene, counted: Counted | None) -> Need:
     world = scene.world()
-    dt = min(scene.dt or 1 / 60, 1 / 60)
+    dt = step_of(scene)
     timed = copy.copy(world)
     timed.timing = True
     timed.step(dt, steps=STEPS)
     stages = {name: seconds / STEPS for name, seconds in timed.report().stages.items()}
-    full = everything(world)
     return Need(
         scene.name,
         len(world.bodies),
         {name: stages[name] for name in world.stages if name in stages},
         _seconds(world, dt),
-        _stored(world),
-        _seconds(full, dt),
-        _stored(full),
+        _seconds(everything(world), dt),
+        counted,
     )
 
 
@@ -88,7 +142,3 @@ def _seconds(world: World, dt: float) -> float:
         run.step(dt, steps=STEPS)
         times.append((perf_counter() - clock) / STEPS)
     return median(times)
-
-
-def _stored(world: World) -> int:
-    return len(pickle.dumps(world))

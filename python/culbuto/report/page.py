@@ -13,6 +13,7 @@ from culbuto import _native
 from culbuto.drawing import picture
 from culbuto.report import style
 from culbuto.report.measure import Results, SceneResult, versions
+from culbuto.report.needs import counts
 from culbuto.report.stability import engines
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from culbuto.catalogue import Check, MethodCheck, Scene, Verdict
+    from culbuto.report.needs import Counts, Feature
     from culbuto.report.peers import Peers
     from culbuto.study import Row, Study
 
@@ -49,6 +51,16 @@ def seconds(value: float) -> str:
         if value >= size:
             return f"{value / size:.3g} {unit}"
     return f"{value / 1e-9:.3g} ns"
+
+
+def whole(value: float) -> str:
+    """A count in groups of three digits."""
+    return f"{value:,.0f}".replace(",", "\u202f")
+
+
+def size(value: int) -> str:
+    """Bytes, in kilobytes where there are many."""
+    return f"{value / 1000:.3g} kB" if value >= 1000 else f"{value} B"
 
 
 def step(value: float) -> str:
@@ -111,7 +123,7 @@ def write_page(results: Results, folder: Path) -> list[Path]:
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
-    helpers = (number, seconds, step, quickest, order, worst, mark, label)
+    helpers = (number, seconds, step, whole, size, quickest, order, worst, mark, label)
     environment.globals.update({helper.__name__: helper for helper in helpers})
     panels = [
         style.inline(figure, f"throw{i}", "A thrown ball")
@@ -128,6 +140,7 @@ def write_page(results: Results, folder: Path) -> list[Path]:
         peers=results.peers,
         matrix=results.stability,
         engines=engines(results.stability),
+        **_counted(counts()),
         light=style.variables(dark=False),
         dark=style.variables(dark=True),
     )
@@ -140,6 +153,15 @@ def write_page(results: Results, folder: Path) -> list[Path]:
     title = "A thrown ball at several ticks a second, and error against run time"
     throw.write_text(style.standalone(figures.throw_figure(results.throw), title), "utf-8")
     return [index, throw]
+
+
+def _counted(found: Counts) -> dict[str, Any]:
+    """What was counted: features by name, and of each by world."""
+    features: dict[str, dict[str, Feature]] = {}
+    for one in found.features:
+        features.setdefault(one.feature, {})[one.world] = one
+    worlds = list(dict.fromkeys(one.world for one in found.features))
+    return {"counts": found, "counted_features": features, "counted_worlds": worlds}
 
 
 def drawing(scene: Scene) -> str:

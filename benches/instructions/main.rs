@@ -1,10 +1,18 @@
-//! Steps a named world a number of times and does nothing else, for `make count` to count instructions:
-//! `instructions NAME STEPS`. The difference of two counts is the cost of the steps between.
+//! Steps a world a number of times and does nothing else, for valgrind to count instructions and memory (`make count`,
+//! `make needs`): the difference of two counts is the cost of the steps between. The world is one of those named here, a
+//! scene file, or one with a feature that it never had, had or has: `BASE/FEATURE/never`.
+//!
+//! `instructions WORLD STEPS [--dt DT] [--timed | --keep]`; `--timed` reads the clock around each stage and asks for the
+//! process's number between steps, `--keep` leaves the world in memory at the end. Without arguments the names of the worlds
+//! are printed, with `features` those of bases and features.
+
+mod features;
 
 use culbuto::forces::{Air, Central};
 use culbuto::math::vec2;
+use culbuto::scenes::SceneFile;
 use culbuto::shapes::Shape;
-use culbuto::{BodyDef, Result, World};
+use culbuto::{BodyDef, Error, Result, World};
 
 /// Name of a world, and how it is made.
 type Named = (&'static str, fn() -> Result<World>);
@@ -61,19 +69,48 @@ fn bodies(n: usize, def: impl Fn(usize) -> Result<BodyDef>) -> Result<World> {
     Ok(world)
 }
 
+/// The world of this name.
+fn world(name: &str) -> Result<Option<World>> {
+    if name.ends_with(".json") {
+        return SceneFile::read(name)?.world().map(Some);
+    }
+    let parts: Vec<&str> = name.split('/').collect();
+    if let [base, feature, how] = parts[..] {
+        return features::world(base, feature, how);
+    }
+    WORLDS.iter().find(|(own, _)| *own == name).map(|(_, build)| build()).transpose()
+}
+
 #[allow(clippy::print_stdout, reason = "the list is what is asked for")]
 fn main() -> Result<()> {
-    let mut arguments = std::env::args().skip(1);
-    let (Some(name), Some(steps)) = (arguments.next(), arguments.next()) else {
-        WORLDS.iter().for_each(|(name, _)| println!("{name}"));
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [name, steps, options @ ..] = &arguments[..] else {
+        if arguments.is_empty() {
+            WORLDS.iter().for_each(|(name, _)| println!("{name}"));
+        } else {
+            for (base, _) in features::BASES {
+                features::FEATURES.iter().for_each(|(feature, _)| println!("{base}/{feature}"));
+            }
+        }
         return Ok(());
     };
-    let steps = steps.parse().unwrap_or(0);
-    for (_, build) in WORLDS.iter().filter(|(own, _)| *own == name) {
-        let mut world = build()?;
-        for _ in 0..steps {
-            world.step(1.0 / 60.0)?;
+    let has = |option: &str| options.iter().any(|own| own == option);
+    let dt = options.iter().skip_while(|own| *own != "--dt").nth(1);
+    let dt = dt.and_then(|dt| dt.parse().ok()).unwrap_or(1.0 / 60.0);
+    let Some(mut world) = world(name)? else {
+        return Err(Error::invalid("world", name, "those that are printed without arguments"));
+    };
+    if has("--timed") {
+        world.set_timing(true);
+    }
+    for _ in 0..steps.parse().unwrap_or(0) {
+        if has("--timed") {
+            std::hint::black_box(std::process::id());
         }
+        world.step(dt)?;
+    }
+    if has("--keep") {
+        std::mem::forget(world);
     }
     Ok(())
 }
