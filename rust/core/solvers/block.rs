@@ -24,6 +24,25 @@ pub fn solve(block: &mut Block, [a, b]: [&mut Velocity; 2]) -> Real {
     take(block, &error, [a, b])
 }
 
+/// The same, but what sticks pushes by the change itself, not by the difference of rounded impulses: under a heavy load that rounding
+/// is a velocity of what is light. Returns the change.
+pub fn refine(block: &mut Block, [a, b]: [&mut Velocity; 2]) -> [Real; 3] {
+    let mut error = block.velocity([a, b]);
+    for (row, target) in error.iter_mut().zip(block.target) {
+        *row -= target;
+    }
+    let old = block.impulse;
+    let change = if let Some((new, change)) = sticking(block, &error) {
+        block.impulse = new;
+        change
+    } else {
+        block.impulse = by_modes(block, &error);
+        [0, 1, 2].map(|k| block.impulse[k] - old[k])
+    };
+    block.push([a, b], change);
+    change
+}
+
 /// Solves a block that has something to do, whose velocities are so far beyond the targets.
 pub(super) fn take(block: &mut Block, error: &[Real; 3], bodies: [&mut Velocity; 2]) -> Real {
     let impulse = impulses(block, error);
@@ -36,28 +55,24 @@ pub(super) fn take(block: &mut Block, error: &[Real; 3], bodies: [&mut Velocity;
 
 /// The impulses of the block, given the velocities beyond the targets that the present ones leave.
 pub fn impulses(block: &mut Block, error: &[Real; 3]) -> [Real; 3] {
-    sticking(block, error).unwrap_or_else(|| by_modes(block, error))
+    sticking(block, error).map_or_else(|| by_modes(block, error), |(new, _)| new)
 }
 
-/// The impulses that meet all targets, if the bounds allow them: the case of most contacts that rest.
-fn sticking(block: &mut Block, error: &[Real; 3]) -> Option<[Real; 3]> {
+/// The impulses that meet all targets, and their change, if the bounds allow them: the case of most contacts that rest.
+fn sticking(block: &mut Block, error: &[Real; 3]) -> Option<([Real; 3], [Real; 3])> {
     let [a, b, c, d, e, f] = block.inverse;
     if f == 0.0 {
         return None;
     }
     let [x, y, z] = error;
-    let old = &block.impulse;
-    let new = [
-        old[0] - (a * x + c * y + d * z),
-        old[1] - (c * x + b * y + e * z),
-        old[2] - (d * x + e * y + f * z),
-    ];
+    let change = [-(a * x + c * y + d * z), -(c * x + b * y + e * z), -(d * x + e * y + f * z)];
+    let new = [0, 1, 2].map(|k| block.impulse[k] + change[k]);
     let bound = sticking_bound(block) * (new[0] + new[1]);
     let allowed = new[0] >= 0.0 && new[1] >= 0.0 && new[2].abs() <= bound;
     if allowed {
         block.sliding = false;
     }
-    allowed.then_some(new)
+    allowed.then_some((new, change))
 }
 
 /// A contact that slid holds again only if the kinetic coefficient is enough to hold it.

@@ -193,18 +193,21 @@ impl Newton {
     }
 
     /// Solves the rows for what they lack, and gives the bodies of the contacts the impulses. What others get is left in
-    /// [`Newton::solved`]. Whether it is made of numbers; if not, nothing is given.
-    pub fn solve(&mut self, bodies: &mut [Velocity], blocks: &mut [Block]) -> bool {
+    /// [`Newton::solved`]. Returns the largest change of velocity (m/s) that a contact's impulses make along its own rows; none where the
+    /// solution is not made of numbers, and nothing is given.
+    pub fn solve(&mut self, bodies: &mut [Velocity], blocks: &mut [Block]) -> Option<Real> {
         self.factor.solve(&self.wanted, &mut self.solved);
         if !self.solved.iter().flatten().all(|x| x.is_finite()) {
-            return false;
+            return None;
         }
+        let mut largest: Real = 0.0;
         let mut rolling = blocks.len();
         for ((block, mode), solved) in blocks.iter_mut().zip(&self.modes).zip(&self.solved) {
             let [p, q, mut t] = *solved;
             t += mode.slides * (p + q);
             let pair = super::sweep::pair(bodies, block.bodies);
             block.push(pair, [p, q, t]);
+            largest = largest.max(super::sweep::along(block, &[p, q, t]));
             for (sum, change) in block.impulse.iter_mut().zip([p, q, t]) {
                 *sum += change;
             }
@@ -215,7 +218,7 @@ impl Newton {
                 rolling += 1;
             }
         }
-        true
+        Some(largest)
     }
 }
 

@@ -82,6 +82,32 @@ pub fn solve(velocities: &mut [Velocity], blocks: &mut [Block], budget: Budget) 
     (budget.most, change)
 }
 
+/// One sweep whose pushes are not rounded to the impulses' last digits (see [`block::refine`]); `watch` sees each block
+/// with its bodies and the change of its impulses. Returns the largest change (m/s).
+pub fn refine(
+    velocities: &mut [Velocity],
+    blocks: &mut [Block],
+    watch: &mut impl FnMut(&Block, [&Velocity; 2], &[Real; 3]),
+) -> Real {
+    let mut largest: Real = 0.0;
+    for block in blocks {
+        let [a, b] = pair(velocities, block.bodies);
+        let change = block::refine(block, [a, b]);
+        watch(block, [a, b], &change);
+        largest = largest.max(along(block, &change));
+        if block.rolling_resistance > 0.0 {
+            resist_rolling(block, pair(velocities, block.bodies));
+        }
+    }
+    largest
+}
+
+/// The largest velocity (m/s) that a change of a block's impulses gives along one of its rows.
+pub fn along(block: &Block, change: &[Real; 3]) -> Real {
+    let [k00, k11, _, _, _, ktt] = block.response;
+    (change[0] * k00).abs().max((change[1] * k11).abs()).max((change[2] * ktt).abs())
+}
+
 /// |λ_r| ≤ arm·(λ_0 + λ_1), ω_b = ω_a within it.
 fn resist_rolling(block: &mut Block, [a, b]: [&mut Velocity; 2]) {
     let response = a.inverse_inertia + b.inverse_inertia;

@@ -20,6 +20,12 @@ pub struct Mass {
 }
 
 impl Mass {
+    /// I/m (m²); 0 of a body without mass.
+    #[must_use]
+    pub fn gyration_squared(&self) -> Real {
+        if self.mass > 0.0 { self.inertia / self.mass } else { 0.0 }
+    }
+
     /// The change of energy along a change of velocity: m Δv·v + I Δω ω.
     #[must_use]
     pub fn work(&self, change: &Twist, mean: &Twist) -> Real {
@@ -182,6 +188,9 @@ pub struct Group {
     pub(super) middle: Real,
     /// Velocities before the rows.
     pub(super) free: Vec<Twist>,
+    /// Velocities that the rows left, before overlap is removed.
+    #[cfg(test)]
+    pub left: Vec<Velocity>,
     /// Where impacts may come.
     pub(super) watch: Watch,
     /// Of each contact that is watched, where it is going to meet if it is swift, and the manifold that the remembered

@@ -220,6 +220,8 @@ fn solve_rows(group: &mut Group, h: Real, settings: Settings, outcome: &mut Outc
     }
     outcome.ledger.work += work.given;
     outcome.ledger.dissipated -= work.gain;
+    #[cfg(test)]
+    group.left.clone_from(&group.velocities);
     if group.wide.on {
         wide::pass(group);
         return;

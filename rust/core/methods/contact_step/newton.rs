@@ -17,6 +17,13 @@ use crate::solvers::sweep::{self, Budget};
 /// What is solved to, in parts of what sweeps are asked for.
 const EXACT: Real = 1e-2;
 
+/// A sweep hardly moves a body that gives way less than this part of its contact does: what such a body lacks is not seen in what sweeps
+/// change, and comes back in each substep as an impulse, which is large to the other.
+const FELT: Real = 3e-3;
+
+/// There nothing stands unless a second sweep changes no more than so many times the rounding.
+const STANDS: Real = 3.0;
+
 /// Rounding of velocities, in parts of the fastest.
 const ROUNDING: Real = 1e-14;
 
@@ -41,8 +48,11 @@ const MORE: [u32; 2] = [3, 20];
 /// Steps that are undone before what satisfies sweeps is enough.
 const PATIENCE: u32 = 3;
 
-/// Solutions with the same factors: the first leaves ε of what there was, more of it the farther masses are apart.
-const SOLUTIONS: usize = 2;
+/// Most solutions with the same factors. Each leaves ε of what there was, times the ratio of masses: two are the rule.
+const SOLUTIONS: usize = 8;
+
+/// Another solution is worth while if the last one changed this part of the one before at most.
+const SHRINKS: Real = 0.3;
 
 /// Most factorisations and most solutions.
 const MOST: [u32; 2] = [30, 80];
@@ -95,10 +105,14 @@ pub fn solve(
 ) -> (u32, Real, Real) {
     let Group { velocities, blocks, ties, together, .. } = group;
     let mut rows = Rows { velocities, blocks, ties };
-    let first = rows.look(1, false);
+    let mut first = rows.look(1, false);
     let tolerance = EXACT * budget.tolerance;
     if first <= tolerance {
-        return (1, first, 0.0);
+        let stands;
+        (first, stands) = rows.look_again(budget.tolerance / super::CALM);
+        if stands {
+            return (2, first, 0.0);
+        }
     }
     let tolerance = tolerance.max(ROUNDING * rows.fastest());
     let mut search = Search::new(allowed);
@@ -136,7 +150,8 @@ impl Together {
             }
             let enough = search.undone >= PATIENCE && residual <= budget.tolerance;
             let spent = search.spent > 0.0 && search.spent >= search.allowed;
-            if residual <= tolerance || enough || spent || search.factorisations >= MOST[0] {
+            let done = step > 0 && residual <= tolerance;
+            if done || enough || spent || search.factorisations >= MOST[0] {
                 break;
             }
             residual = self.step(rows, search, tolerance).unwrap_or(Real::INFINITY);
@@ -157,13 +172,16 @@ impl Together {
         search.factorisations += u32::from(made);
         search.spent += system.cost(made);
         let contacts = system.contacts();
+        let mut before = Real::INFINITY;
         for _ in 0..SOLUTIONS {
             system.lack(rows.velocities, rows.blocks);
             rows.ties.lack(rows.velocities, &mut system.wanted[contacts..]);
-            if !system.solve(rows.velocities, rows.blocks) {
-                return None;
-            }
+            let change = system.solve(rows.velocities, rows.blocks)?;
             rows.ties.add(rows.velocities, &system.solved[contacts..]);
+            if change <= rows.rounding() || change > SHRINKS * before {
+                break;
+            }
+            before = change;
         }
         search.sweeps += 1;
         let residual = rows.look(1, search.factorisations > joints::TOGETHER as u32);
@@ -207,10 +225,34 @@ impl Rows<'_> {
         let mut residual = 0.0;
         for _ in 0..sweeps {
             ties.review(velocities, one_by_one);
-            let one = Budget { tolerance: 0.0, most: 1 };
-            residual = sweep::solve(velocities, blocks, one).1.max(ties.largest_lack(velocities));
+            residual = sweep::refine(velocities, blocks, &mut |_, _, _| {});
+            residual = residual.max(ties.largest_lack(velocities));
         }
         residual
+    }
+
+    /// Sweeps once more; returns what the rows lack, and whether no impulse changed beyond rounding where one of the bodies hardly feels it.
+    /// The kick is the velocity that forces give in the substep.
+    fn look_again(&mut self, kick: Real) -> (Real, bool) {
+        let noise = ROUNDING * self.fastest();
+        let Self { velocities, blocks, ties } = self;
+        let mut stands = true;
+        let residual = sweep::refine(velocities, blocks, &mut |block, bodies, change| {
+            let least = least_response(block, bodies);
+            if least < FELT * block.response[0].min(block.response[1]) {
+                let load = block.impulse[0] + block.impulse[1];
+                let rounding = STANDS * Real::EPSILON * (kick + load * least);
+                stands &= sweep::along(block, change) <= rounding + noise;
+            }
+        });
+        let residual = residual.max(ties.largest_lack(velocities));
+        (residual, stands)
+    }
+
+    /// What the last digits of the contacts' impulses change along their rows, at most (m/s).
+    fn rounding(&self) -> Real {
+        let of = |block: &Block| sweep::along(block, &block.impulse);
+        Real::EPSILON * self.blocks.iter().map(of).fold(0.0, Real::max)
     }
 
     /// The largest velocity (m/s); infinite if one is no number.
@@ -221,6 +263,16 @@ impl Rows<'_> {
             if known && !speed.is_nan() { speed } else { Real::INFINITY }
         };
         self.velocities.iter().map(speed).fold(0.0, Real::max)
+    }
+}
+
+/// What a unit impulse along the normal gives that body of a contact which gives way less.
+fn least_response(block: &Block, bodies: [&Velocity; 2]) -> Real {
+    let normal = |side: usize| (block.normal, block.arms[0][side]);
+    let gives = [0, 1].map(|side| bodies[side].coupling(normal(side), normal(side)));
+    match gives {
+        [a, b] if a > 0.0 && b > 0.0 => a.min(b),
+        [a, b] => a + b,
     }
 }
 

@@ -11,8 +11,8 @@ use crate::solvers::sweep::{self, Budget};
 /// Times that the budget of sweeps is granted again.
 const MOST_ROUNDS: u32 = 20;
 
-/// Rounds in which all rows may be solved at once: before targets are limited, and after.
-const SOLVED: u32 = 2;
+/// Times that what rows ask for may be limited: once more than for sweeps where all are solved at once, since others may give then.
+const LIMITS: [u32; 2] = [1, 3];
 
 /// Limited rows that would not give as little after so many rounds more, at the rate of the last one, are swept no further: in
 /// large heaps that are not settled a round takes a tenth of it, and weakening takes the rest at once.
@@ -22,8 +22,8 @@ const HOPE: Real = 2.0;
 const LITTLE: Real = 1e-3;
 
 /// Sweeps until the velocities settle or the budget is used up, and on while what they lack would bring bodies farther into one
-/// another than a pass of [`project`] brings them out. Where the rows give more than a little energy, what they ask for is
-/// limited to what gives none, and they are swept on as well, as long as that helps.
+/// another than a pass of [`project`] brings them out. Where the rows give more than a little energy (any, where all are solved at once), what
+/// they ask for is limited to what gives none, and they are solved on as well, as long as that helps.
 pub fn settle(
     group: &mut Group,
     (h, budget): (Real, Budget),
@@ -33,11 +33,13 @@ pub fn settle(
     let width = group.links.iter().map(|link| link.width).fold(0.0, Real::max);
     let allowed = project::MOST * width / h;
     let mut budget = budget;
-    let mut limited = false;
+    let at_once = solver == Solver::Newton;
+    let most_limits = LIMITS[usize::from(at_once)];
+    let mut limits = 0;
     let mut before = Real::INFINITY;
     for round in 0.. {
         let (sweeps, residual) = match solver {
-            _ if round >= SOLVED || group.blocks.is_empty() => sweep(group, budget),
+            _ if round > most_limits || group.blocks.is_empty() => sweep(group, budget),
             Solver::Sweep => sweep(group, budget),
             Solver::Newton => solve_all(group, (budget, Real::INFINITY), outcome),
             Solver::Auto => purse::solve(group, budget, outcome),
@@ -47,23 +49,24 @@ pub fn settle(
             wide::give_driven(group);
         }
         let work = group.row_work(h);
-        let gives = work.gain > LITTLE * work.changed;
+        let little = if at_once { work.rounding } else { LITTLE * work.changed };
+        let gives = work.gain > little;
         let lacks = residual > allowed;
-        let settled = residual <= budget.tolerance && (limited || !gives);
+        let settled = residual <= budget.tolerance && (limits == most_limits || !gives);
         let part = work.gain / work.changed;
-        let idle = limited && !lacks && HOPE * (before - part) < part;
+        let idle = limits > 0 && !lacks && HOPE * (before - part) < part;
         let last = round == MOST_ROUNDS || !group.ties.is_empty() || idle;
         if last || settled || !(gives || lacks) {
             outcome.residual = outcome.residual.max(residual);
             return work;
         }
-        if gives && !limited {
+        if gives && limits < most_limits {
             if group.wide.on {
                 wide::limit_targets(group, h);
             } else {
-                limit_targets(group, h);
+                limit_targets(group, h, at_once);
             }
-            limited = true;
+            limits += 1;
         } else {
             before = part;
         }
@@ -124,8 +127,9 @@ fn alternate(
     (budget.most, residual)
 }
 
-/// v ≤ −v⁻ of every row: it leaves no faster than it came, and what parts already falls back.
-fn limit_targets(group: &mut Group, h: Real) {
+/// v ≤ −v⁻ of every row: it leaves no faster than it came, and what parts already falls back. Along the surface v = −v⁻ where sticking gives
+/// energy, if that is asked for.
+fn limit_targets(group: &mut Group, h: Real, along: bool) {
     let Group { velocities, places, blocks, free, .. } = group;
     for block in blocks {
         let start = block.bodies.map(|slot| {
@@ -139,18 +143,24 @@ fn limit_targets(group: &mut Group, h: Real) {
         for (target, came) in block.target.iter_mut().zip(came).take(usize::from(block.count)) {
             *target = target.min(-came);
         }
+        let now = block.velocity(block.bodies.map(|slot| &velocities[slot as usize]));
+        if along && !block.sliding && block.impulse[2] * (came[2] + now[2]) > 0.0 {
+            block.target[2] = -came[2];
+        }
     }
 }
 
 /// Weakens all impulses of the rows by that part which makes them give no energy: weakened by a factor s they do the work
-/// s(gain − changed) + s²·changed. Returns s.
+/// s(gain − changed) + s²·changed. Returns s. What a body is given back counts as the speed that has as much energy.
 pub fn weaken(group: &mut Group, work: &RowWork, outcome: &mut Outcome) -> Real {
     let part = (1.0 - work.gain / work.changed).max(0.0);
-    let Group { velocities, free, blocks, .. } = group;
-    for (velocity, free) in velocities.iter_mut().zip(&*free) {
+    let Group { velocities, free, blocks, masses, .. } = group;
+    for ((velocity, free), mass) in velocities.iter_mut().zip(&*free).zip(&*masses) {
         let now = &mut velocity.twist;
         let change = now.linear - free.linear;
-        outcome.residual = outcome.residual.max((1.0 - part) * change.norm());
+        let turn = now.angular - free.angular;
+        let square = change.norm_squared() + mass.gyration_squared() * turn * turn;
+        outcome.residual = outcome.residual.max((1.0 - part) * square.sqrt());
         now.linear = free.linear + change * part;
         now.angular = free.angular + (now.angular - free.angular) * part;
     }
