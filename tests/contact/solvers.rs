@@ -80,27 +80,37 @@ fn both_solvers_find_the_loads_of_a_stack() {
     }
 }
 
-/// A board on four legs in a row, whose loads no law of rigid bodies tells: however they share them, they bear its weight.
+/// A board on four legs in a row, whose loads no law of rigid bodies tells: they bear its weight, and share it as symmetrically as it stands,
+/// also when one leg came down first.
 #[test]
-fn a_table_on_four_legs_bears_its_weight() {
-    let mut world = floor(0.5);
-    world.set_solver(Solver::Newton);
-    let leg = |x: Real| {
-        Shape::new(ShapeDef::Box { width: 0.1, height: 1.0, center: vec2(x, -0.55), angle: 0.0 })
-            .unwrap()
-    };
-    let legs = [-1.5, -0.5, 0.5, 1.5].map(leg);
-    let board = Shape::rectangle(4.0, 0.1).unwrap();
-    let parts: Vec<Part> = legs.into_iter().chain([board]).map(Part::from).collect();
-    let table = BodyDef { position: vec2(0.0, 1.05), ..BodyDef::compound(parts) };
-    let table = world.add_body(table).unwrap();
-    world.steps(DT, 120).unwrap();
-    let feet = world.contacts();
-    assert_eq!(feet.len(), 4);
-    let total: Real = feet.iter().flat_map(|contact| contact.normal_impulses).sum();
-    let weight = 10.0 * world.body(table).unwrap().mass().mass;
-    let h = DT / Real::from(world.settings().substeps);
-    assert_below("weight", (total / h / weight - 1.0).abs(), 1e-9);
+fn a_table_on_four_legs_bears_its_weight_evenly() {
+    for tilt in [0.0, 0.02] {
+        let mut world = floor(0.5);
+        world.set_solver(Solver::Newton);
+        let leg = |x: Real| {
+            let center = vec2(x, -0.55);
+            Shape::new(ShapeDef::Box { width: 0.1, height: 1.0, center, angle: 0.0 }).unwrap()
+        };
+        let legs = [-1.5, -0.5, 0.5, 1.5].map(leg);
+        let board = Shape::rectangle(4.0, 0.1).unwrap();
+        let parts: Vec<Part> = legs.into_iter().chain([board]).map(Part::from).collect();
+        let position = vec2(0.0, 1.05 + 2.0 * tilt);
+        let table = BodyDef { position, angle: tilt, ..BodyDef::compound(parts) };
+        let table = world.add_body(table).unwrap();
+        world.steps(DT, 240).unwrap();
+        let mut feet = world.contacts().to_vec();
+        assert_eq!(feet.len(), 4);
+        feet.sort_by(|a, b| a.points[0].x.total_cmp(&b.points[0].x));
+        let h = DT / Real::from(world.settings().substeps);
+        let weight = 10.0 * world.body(table).unwrap().mass().mass;
+        let loads: Vec<Real> = (feet.iter())
+            .map(|foot| foot.normal_impulses.iter().sum::<Real>() / (h * weight))
+            .collect();
+        assert_below("weight", (loads.iter().sum::<Real>() - 1.0).abs(), 1e-9);
+        for k in 0..2 {
+            assert_below("loads of mirrored legs", (loads[k] - loads[3 - k]).abs(), 1e-6);
+        }
+    }
 }
 
 /// Joints and contacts in one system: a ragdoll that falls on the ground keeps together, takes energy only, and comes to rest.

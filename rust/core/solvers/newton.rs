@@ -9,6 +9,17 @@ use crate::constraints::Velocity;
 use crate::constraints::contact::Block;
 use crate::math::Real;
 
+/// How contacts are taken to stand.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Guess {
+    /// As sweeps left them.
+    Swept,
+    /// The same, and what has no impulse bears where it approaches faster than its target or parts no faster than this beyond it (m/s).
+    Cold(Real),
+    /// By velocities alone: what is within this (m/s) of its target bears or sticks.
+    Touching(Real),
+}
+
 /// How a contact stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Mode {
@@ -46,6 +57,15 @@ impl Mode {
         Self { bears, sticks, slides, holds, rolls }
     }
 
+    /// By the velocities along its rows.
+    fn touching(block: &Block, along: &[Real; 3], slow: Real) -> Self {
+        let near = |k: usize| (along[k] - block.target[k]).abs() <= slow;
+        let bears = [0, 1].map(|k| block.on[k] && near(k));
+        let sticks = near(2) && block.response[5] > 0.0 && bears != [false; 2];
+        let slides = if sticks { 0.0 } else { Self::of(block, [false; 2]).slides };
+        Self { bears, sticks, slides, ..Self::of(block, bears) }
+    }
+
     fn pushes(&self) -> bool {
         self.slides != 0.0 || self.rolls != 0.0
     }
@@ -64,8 +84,11 @@ pub struct Newton {
     pub wanted: Vec<Triple>,
     /// What was found.
     pub solved: Vec<Triple>,
-    /// Links of contacts.
+    /// Contacts, and links of contacts.
+    blocks: usize,
     contacts: usize,
+    /// The bodies of each contact, in order.
+    pairs: Vec<(Option<u32>, Option<u32>)>,
     factored: Option<Real>,
 }
 
@@ -81,7 +104,7 @@ impl Newton {
         self.links.clear();
         self.links.extend(blocks.iter().map(ends));
         self.links.extend(blocks.iter().filter(|block| block.rolling_resistance > 0.0).map(ends));
-        self.contacts = self.links.len();
+        (self.blocks, self.contacts) = (blocks.len(), self.links.len());
         self.links.extend_from_slice(others);
         self.modes.clear();
         self.factored = None;
@@ -110,23 +133,35 @@ impl Newton {
         &mut self,
         bodies: &[Velocity],
         blocks: &[Block],
-        (epsilon, guess): (Real, Option<Real>),
+        (epsilon, guess): (Real, Guess),
     ) -> bool {
         let mut same = self.factored == Some(epsilon);
         self.modes.resize(blocks.len(), Mode::default());
         for (mode, block) in self.modes.iter_mut().zip(blocks) {
-            let closed = match guess {
-                Some(slow) if block.impulse == [0.0; 3] => {
-                    let along = block.velocity(block.bodies.map(|slot| &bodies[slot as usize]));
-                    [0, 1].map(|k| block.on[k] && along[k] <= block.target[k] + slow)
+            let along = || block.velocity(block.bodies.map(|slot| &bodies[slot as usize]));
+            let now = match guess {
+                Guess::Cold(slow) if block.impulse == [0.0; 3] => {
+                    let along = along();
+                    let closed = |k: usize| block.on[k] && along[k] <= block.target[k] + slow;
+                    Mode::of(block, [0, 1].map(closed))
                 }
-                _ => [false; 2],
+                Guess::Touching(slow) => Mode::touching(block, &along(), slow),
+                _ => Mode::of(block, [false; 2]),
             };
-            let now = Mode::of(block, closed);
             same &= *mode == now;
             *mode = now;
         }
         same
+    }
+
+    /// Whether two bodies, or one and the ground, meet in more contacts than one.
+    #[must_use]
+    pub fn meets_twice(&mut self) -> bool {
+        let pairs = &mut self.pairs;
+        pairs.clear();
+        pairs.extend(self.links[..self.blocks].iter().map(|[a, b]| (*a.min(b), *a.max(b))));
+        pairs.sort_unstable();
+        pairs.windows(2).any(|pair| pair[0] == pair[1])
     }
 
     /// Factors of the rows as the contacts stand, and of `others`, unless they are those that it has. Whether they had to be
@@ -135,7 +170,7 @@ impl Newton {
         &mut self,
         (bodies, blocks): (&[Velocity], &[Block]),
         others: Option<&[Rows]>,
-        (epsilon, guess): (Real, Option<Real>),
+        (epsilon, guess): (Real, Guess),
     ) -> bool {
         let same = self.take_modes(bodies, blocks, (epsilon, guess));
         if same && others.is_none() {

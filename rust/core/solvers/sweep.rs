@@ -121,7 +121,8 @@ fn resist_rolling(block: &mut Block, [a, b]: [&mut Velocity; 2]) {
     block.rolling = new;
 }
 
-pub(super) fn turn([a, b]: [&mut Velocity; 2], impulse: Real) {
+/// Turns two bodies against one another by an impulse (N·m·s).
+pub fn turn([a, b]: [&mut Velocity; 2], impulse: Real) {
     a.twist.angular -= a.inverse_inertia * impulse;
     b.twist.angular += b.inverse_inertia * impulse;
 }

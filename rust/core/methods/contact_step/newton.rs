@@ -11,7 +11,7 @@ use super::{Group, Outcome};
 use crate::constraints::Velocity;
 use crate::constraints::contact::Block;
 use crate::math::{Real, Twist};
-use crate::solvers::newton::Newton;
+use crate::solvers::newton::{Guess, Newton};
 use crate::solvers::sweep::{self, Budget};
 
 /// What is solved to, in parts of what sweeps are asked for.
@@ -158,19 +158,44 @@ impl Together {
         }
         if residual > search.best {
             self.saved.restore(rows);
+        } else if search.factorisations > 0 && residual <= tolerance {
+            return self.even_out(rows, (residual, tolerance), search);
         }
         residual.min(search.best)
     }
 
-    /// One solution and a sweep: what the rows lack then, or nothing if that is no number.
-    fn step(&mut self, rows: &mut Rows, search: &mut Search, tolerance: Real) -> Option<Real> {
-        let Self { system, noted, .. } = self;
-        let joints = rows.ties.solved_rows(noted);
-        let guess = (search.factorisations == 0).then_some(tolerance);
-        let how = (search.epsilon, guess);
-        let made = system.factor((rows.velocities, rows.blocks), joints, how);
+    /// Where two bodies meet in more contacts than one, as a table on its legs does with the ground, rows depend on one another, and how they
+    /// share loads depends on the order of sweeps and on the last substep. Of all impulses that do what was found, takes the
+    /// smallest ones: those that a solution from none at all leads to, with all that touches bearing and all that does not slip
+    /// sticking. Kept only if nothing is lacking then; returns what is.
+    fn even_out(
+        &mut self,
+        rows: &mut Rows,
+        (residual, tolerance): (Real, Real),
+        search: &mut Search,
+    ) -> Real {
+        if !self.system.meets_twice() {
+            return residual;
+        }
+        self.saved.save(rows);
+        let joints = rows.ties.solved_rows(&mut self.noted);
+        let how = (EPSILON, Guess::Touching(tolerance));
+        let made = self.system.factor((rows.velocities, rows.blocks), joints, how);
         search.factorisations += u32::from(made);
-        search.spent += system.cost(made);
+        search.spent += self.system.cost(made);
+        rows.release();
+        let solved = self.solutions(rows).is_some();
+        let left = rows.look(1, false);
+        if solved && left <= residual.max(rows.rounding()) {
+            return left;
+        }
+        self.saved.restore(rows);
+        residual
+    }
+
+    /// Solutions with the present factors, as long as they gain; none where they are no numbers.
+    fn solutions(&mut self, rows: &mut Rows) -> Option<()> {
+        let system = &mut self.system;
         let contacts = system.contacts();
         let mut before = Real::INFINITY;
         for _ in 0..SOLUTIONS {
@@ -183,6 +208,22 @@ impl Together {
             }
             before = change;
         }
+        Some(())
+    }
+
+    /// One solution and a sweep: what the rows lack then, or nothing if that is no number.
+    fn step(&mut self, rows: &mut Rows, search: &mut Search, tolerance: Real) -> Option<Real> {
+        let Self { system, noted, .. } = self;
+        let joints = rows.ties.solved_rows(noted);
+        let guess = match search.factorisations {
+            0 => Guess::Cold(tolerance),
+            _ => Guess::Swept,
+        };
+        let how = (search.epsilon, guess);
+        let made = system.factor((rows.velocities, rows.blocks), joints, how);
+        search.factorisations += u32::from(made);
+        search.spent += system.cost(made);
+        self.solutions(rows)?;
         search.sweeps += 1;
         let residual = rows.look(1, search.factorisations > joints::TOGETHER as u32);
         rows.fastest().is_finite().then_some(residual)
@@ -247,6 +288,16 @@ impl Rows<'_> {
         });
         let residual = residual.max(ties.largest_lack(velocities));
         (residual, stands)
+    }
+
+    /// Takes the contacts' impulses back.
+    fn release(&mut self) {
+        for block in &mut *self.blocks {
+            let back = block.impulse.map(|impulse| -impulse);
+            block.push(sweep::pair(self.velocities, block.bodies), back);
+            sweep::turn(sweep::pair(self.velocities, block.bodies), -block.rolling);
+            (block.impulse, block.rolling) = ([0.0; 3], 0.0);
+        }
     }
 
     /// What the last digits of the contacts' impulses change along their rows, at most (m/s).
