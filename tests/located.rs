@@ -363,3 +363,53 @@ fn what_is_as_fast_as_numbers_go_ends_a_call() {
         assert!(world.snapshot().to_bytes().unwrap() == before, "nothing is lost");
     }
 }
+
+/// A touch begins when what bounces comes to rest, ends where it lets go, and says so at that time, in a call of any length.
+#[test]
+fn touches_begin_and_end_when_they_do() {
+    for restitution in [0.0, 0.5] {
+        let mut world = World::new(vec2(0.0, -G)).unwrap();
+        // A table 2 m wide, 1 m above the floor.
+        add_ground(&mut world, (0.0, restitution));
+        let top = BodyDef {
+            kind: BodyKind::Static,
+            position: vec2(-1.0, 0.9),
+            surface: surface((0.0, restitution)),
+            ..BodyDef::new(Shape::rectangle(2.0, 0.2).unwrap())
+        };
+        let table = world.add_body(top).unwrap();
+        // A ball falls 0.5 m onto it, and slides off it at 1.5 m/s: too fast to turn about the edge (v² > gr).
+        let (speed, radius, height) = (1.5, 0.1, 0.5);
+        let fall = |height: Real| (2.0 * height / G).sqrt();
+        let rests = |height: Real| fall(height) * (1.0 + restitution) / (1.0 - restitution);
+        let ball = BodyDef {
+            position: vec2(-1.9, 1.0 + radius + height),
+            velocity: vec2(speed, 0.0),
+            surface: surface((0.0, restitution)),
+            ..BodyDef::new(Shape::circle(radius).unwrap())
+        };
+        let ball = world.add_body(ball).unwrap();
+        world.advance(5.0, TOLERANCE).unwrap();
+        let events = world.events().clone();
+        let edge = 1.9 / speed;
+        let wanted = [rests(height), edge + rests(1.0)];
+        let begin: Vec<Real> = events.begin.iter().map(|event| event.time).collect();
+        assert!(apart_in_time(&begin, &wanted) < 1e-5, "{begin:?} {wanted:?}");
+        let end: Vec<Real> = events.end.iter().map(|event| event.time).collect();
+        assert!(apart_in_time(&end, &[edge]) < 1e-8, "{end:?} {edge}");
+        assert_eq!(events.begin[0].bodies, [table, ball]);
+        let place = vec2(speed * wanted[0] - 1.9, 1.0);
+        assert!((events.begin[0].point.unwrap() - place).norm() < 1e-4);
+        assert!((events.begin[0].normal.unwrap() - vec2(0.0, 1.0)).norm() < 1e-9);
+        // The next call has nothing to tell.
+        world.advance(0.1, TOLERANCE).unwrap();
+        assert!(world.events().is_empty(), "{:?}", world.events());
+    }
+}
+
+fn apart_in_time(some: &[Real], others: &[Real]) -> Real {
+    if some.len() != others.len() {
+        return Real::INFINITY;
+    }
+    some.iter().zip(others).map(|(a, b)| (a - b).abs()).fold(0.0, Real::max)
+}

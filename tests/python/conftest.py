@@ -1,4 +1,7 @@
-"""What all Python tests share: how hard hypothesis looks. The fast profile tries the same cases each time."""
+"""What all Python tests share: how hard hypothesis looks.
+
+The fast profile tries the same cases each time.
+"""
 
 import os
 

@@ -122,6 +122,9 @@ impl World {
         let (taken, proposed) = self.step_doubled(dt, run.tolerance)?;
         self.settle_joints()?;
         self.planned();
+        if self.notices() {
+            self.notice();
+        }
         run.step = proposed;
         run.pass(taken, stop);
         Ok(())
@@ -161,6 +164,9 @@ impl World {
                 run.next = run.trajectory.times.partition_point(|t| *t <= run.passed);
                 run.wait = [0, 1];
                 run.bearing = Some(booked.bearing);
+                if self.notices() {
+                    self.notice_located(booked.touched);
+                }
                 return Ok(true);
             }
             self.go_back(&before);

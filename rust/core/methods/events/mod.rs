@@ -19,10 +19,12 @@ mod path;
 mod point;
 mod rows;
 mod switch;
+mod touch;
 
 pub use arrival::Pair;
 pub use impact::Struck;
 pub use modes::{Contact, Modes, Slip};
+pub use touch::Touch;
 
 use crate::body::ImpactLaw;
 use crate::collision::Frame;
@@ -62,6 +64,8 @@ pub struct Outcome {
     pub events: u64,
     /// Bodies (slots) that got farther than was looked, and how far (m); the run ended there.
     pub thrown: Vec<(u32, Real)>,
+    /// Pairs that began or ceased to touch; at first what each does.
+    pub touched: Vec<Touch>,
     /// What bears at the end.
     pub bearing: Vec<Bearing>,
     /// When (s) and why events could not go on; the run ended there.
@@ -116,6 +120,7 @@ pub fn run(
         start,
         hints: Vec::new(),
         met: Vec::new(),
+        touching: Vec::new(),
         outcome: Outcome {
             progress: Progress { smallest: Real::INFINITY, ..Progress::default() },
             ..Outcome::default()
@@ -155,6 +160,8 @@ struct Run<'r, 'a, 's, 'm> {
     hints: Vec<Hint>,
     /// Points that have just met.
     met: Vec<(u32, Option<Point>)>,
+    /// Which pairs touch, as far as that is known.
+    touching: Vec<Option<bool>>,
     outcome: Outcome,
 }
 
@@ -201,6 +208,7 @@ impl Run<'_, '_, '_, '_> {
             masses.iter().zip(twists).map(|(mass, twist)| mass.kinetic_energy(twist)).sum()
         };
         let mut taken = Taken::default();
+        let mut bent = Vec::new();
         for jam in 0.. {
             let now = motion.twists.to_vec();
             let (settled, quiet) = (
@@ -215,7 +223,7 @@ impl Run<'_, '_, '_, '_> {
             let quiet = |contact: &Contact| speed(contact, &now);
             let state = (&*motion.poses, &now[..]);
             if choose(modes, state, &free, (&self.hints, &quiet)) {
-                let mut bent = free.clone();
+                bent.clone_from(&free);
                 modes.accelerate(motion.poses, &now, &mut bent);
                 let low = |c: &Contact, u: Real, a: Real| is_low(island, c, u, a);
                 let stopped = stop_low(modes, (motion.poses, motion.twists), &bent, (&quiet, &low));
@@ -238,6 +246,7 @@ impl Run<'_, '_, '_, '_> {
         }
         let time = self.span.start + self.passed;
         outcome.struck.extend(taken.struck.into_iter().map(|hit| Struck { time, ..hit }));
+        self.note_touches(&bent);
         self.hints.clear();
         self.met.clear();
         Ok(())

@@ -9,7 +9,7 @@ use crate::constraints::contact::Memory;
 use crate::error::Result;
 use crate::forces::has_resistance;
 use crate::math::{Pose, Real, Twist, Vec2};
-use crate::methods::events::{Bearing, Island, Outcome, Pair, Struck, run};
+use crate::methods::events::{Bearing, Island, Outcome, Pair, Struck, Touch, run};
 use crate::methods::{Sink, Span, Watch};
 use crate::world::joints::{JoinedGroup, is_smooth};
 use crate::world::{Trajectory, World};
@@ -23,6 +23,8 @@ pub(in crate::world) struct ByEvents {
     pub gave_up: Option<(Real, &'static str)>,
     /// Events located.
     pub events: u64,
+    /// What began or ceased to touch, and between which colliders.
+    pub touched: Vec<([ProxyId; 2], Touch)>,
     /// What bears at the end, and between which colliders.
     pub bearing: Vec<([ProxyId; 2], Bearing)>,
 }
@@ -155,9 +157,9 @@ impl World {
         let thrown = outcome.thrown.iter();
         booked.thrown.extend(thrown.map(|(slot, way)| (members[*slot as usize], *way)));
         booked.gave_up = booked.gave_up.or(outcome.gave_up);
-        let bearing = outcome.bearing.iter();
-        let near = |bearing: &Bearing| pairs[bearing.pair as usize].0 as usize;
-        booked.bearing.extend(bearing.map(|b| (contacts.near[near(b)].proxies, *b)));
+        let proxies = |pair: u32| contacts.near[pairs[pair as usize].0 as usize].proxies;
+        booked.bearing.extend(outcome.bearing.iter().map(|b| (proxies(b.pair), *b)));
+        booked.touched.extend(outcome.touched.iter().map(|t| (proxies(t.pair), *t)));
     }
 }
 

@@ -12,7 +12,8 @@ use crate::world::World;
 /// removed since: its handle is stale then, and asking the world for it is an error.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ContactEvent {
-    /// World time (s): of hits, the moment in the step; of all else, the end of the step that noticed it.
+    /// World time (s): of hits, the moment in the step; of all else, the end of the step that noticed it, or the moment where
+    /// a run to a tolerance went from event to event.
     pub time: Real,
     /// A and B.
     pub bodies: [BodyHandle; 2],

@@ -11,9 +11,10 @@ use super::order::upwards;
 use super::view::place_of;
 use super::{Contacts, Near};
 use crate::body::{Bodies, BodyHandle, Role};
-use crate::collision::{Frame, Manifold, collide, distance};
+use crate::collision::{Frame, Manifold, ProxyId, collide, distance};
 use crate::constraints::contact::moved;
 use crate::math::{Real, Vec2};
+use crate::methods::events::Touch;
 use crate::world::World;
 
 /// A gap below this part of the smaller width is none: where a touch begins, and where it ends. Rounding does not
@@ -116,6 +117,26 @@ impl ShapePair {
 }
 
 impl World {
+    /// Tells what began and ended to touch on the way from event to event, in the order of time.
+    pub(in crate::world) fn notice_located(&mut self, mut touched: Vec<([ProxyId; 2], Touch)>) {
+        let Self { state, events, .. } = self;
+        let (handles, contacts) = (state.bodies.handles(), &mut state.contacts);
+        touched.sort_by(|(_, a), (_, b)| a.time.total_cmp(&b.time));
+        let places: HashMap<[ProxyId; 2], usize, FxBuildHasher> =
+            contacts.near.iter().enumerate().map(|(place, near)| (near.proxies, place)).collect();
+        for (proxies, touch) in touched {
+            let Some(place) = places.get(&proxies).copied() else { continue };
+            if contacts.near[place].touching == touch.touches {
+                continue;
+            }
+            contacts.near[place].touching = touch.touches;
+            let (pair, flipped) = contacts.shapes_of(&contacts.near[place], handles);
+            let spot = touch.spot.map(|(point, n)| (point, if flipped { -n } else { n }, 0.0));
+            contacts.touching.count(pair, touch.touches, spot);
+            contacts.touching.tell(touch.time, events);
+        }
+    }
+
     /// The stage that tells what began and ended to touch in a step.
     pub(in crate::world) fn notice(&mut self) {
         let Self { state, scratch, events, .. } = self;
