@@ -20,13 +20,16 @@ class Scene:
 
     `duration` (s), fixed step `dt` (s) and `tolerance` are those it is judged at, and `length` (m)
     what its errors are relative to; None where the answer is not a motion but numbers. Scenes with
-    contacts have no `tolerance` yet.
+    contacts have no `tolerance` yet. `reference` says where the answer comes from, `uncertainty`
+    how far it may be off itself, relative as errors are.
     """
 
     id: str
     name: str
     title: str
     about: str
+    reference: str
+    uncertainty: float
     duration: float | None
     dt: float | None
     tolerance: float | None
@@ -98,7 +101,7 @@ def scenes() -> list[Scene]:
 
 def _scene(entry: dict[str, Any]) -> Scene:
     motion = entry.pop("motion") or dict.fromkeys(("duration", "dt", "tolerance", "length"))
-    return Scene(**entry, **motion)
+    return Scene(**{**entry, "uncertainty": or_infinite(entry["uncertainty"])}, **motion)
 
 
 def find(name: str) -> Scene:

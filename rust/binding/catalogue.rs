@@ -51,6 +51,9 @@ fn describe(scene: &&Scene) -> Value {
         "name": scene.name,
         "title": scene.title,
         "about": scene.about,
+        "reference": scene.reference.about(),
+        // A world that cannot be made says so to whoever runs it.
+        "uncertainty": scene.uncertainty().ok(),
         "motion": motion,
     })
 }

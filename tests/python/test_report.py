@@ -47,6 +47,17 @@ def test_errors_are_the_same_bits_every_time(results: Results) -> None:
     assert {row.scene for row in results.rows} == {"projectile", "kepler"}
 
 
+def test_rows_and_page_say_how_far_the_reference_may_be_off(results: Results, page: Path) -> None:
+    text = (page / "index.html").read_text("utf-8")
+    for result in results.scenes:
+        assert result.scene.reference in text
+        assert result.scene.uncertainty < 1e-13
+    for row in results.rows:
+        assert row.uncertainty == find(row.scene).uncertainty > 0
+    assert find("falling_rod").uncertainty > find("kepler").uncertainty
+    assert find("random_bins").uncertainty == 0
+
+
 @pytest.mark.parametrize(
     ("value", "text"),
     [

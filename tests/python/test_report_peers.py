@@ -95,6 +95,26 @@ def test_the_matrix_says_how_a_scene_ends_and_up_to_which_step_it_is_right(file:
     assert ours.picture.count("<polygon") == 2
 
 
+def test_the_page_says_where_another_engine_is_quicker_and_why(file: Path, tmp_path: Path) -> None:
+    pytest.importorskip("matplotlib")
+    pytest.importorskip("jinja2")
+    from dataclasses import replace  # noqa: PLC0415
+
+    from culbuto.report.page import write_page  # noqa: PLC0415
+
+    results = measure([find("projectile")], quick=True)
+    peers = Peers.read(file)
+    page, _ = write_page(replace(results, peers=peers), tmp_path / "ahead")
+    assert "the quickest to each of these errors, or the only one" in page.read_text("utf-8")
+    swift = replace(peers.rows[1], error=1e-9, seconds_per_second=1e-12)
+    ahead = replace(peers, rows=(*peers.rows, swift))
+    page, _ = write_page(replace(results, peers=ahead), tmp_path / "behind")
+    text = page.read_text("utf-8")
+    assert "Another engine is quicker here: projectile to" in text
+    assert "Box2D 3" in text
+    assert "times quicker, at 100 ms" in text or "times quicker, at 1/10 s" in text
+
+
 def test_what_is_no_study_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "other.json"
     path.write_text("{}", "utf-8")

@@ -58,8 +58,8 @@ def _log_axes(ax: Axes) -> None:
 
 
 def _uncertain(study: Study, ax: Axes) -> None:
-    """What lies below shows the reference, not the method."""
-    if study.uncertainty > 0:
+    """What lies below shows the reference, not the method; of closed forms rounding says it."""
+    if study.uncertainty > 100 * ROUNDING:
         ax.axhspan(LEAST / 3, study.uncertainty, color=LINE.light, alpha=0.45, linewidth=0)
         ax.text(
             0.995, study.uncertainty, "uncertainty of the reference",

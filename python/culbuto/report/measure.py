@@ -133,7 +133,10 @@ def versions() -> str:
 
 
 def write_rows(results: Results, folder: Path) -> list[Path]:
-    """Writes rows.csv and rows.json; numbers are read back bit for bit."""
+    """Writes rows.csv and rows.json, which also has the scenes and what was asked of them.
+
+    Numbers are read back bit for bit.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     table, data = folder / "rows.csv", folder / "rows.json"
     with table.open("w", newline="", encoding="utf-8") as file:
@@ -145,5 +148,7 @@ def write_rows(results: Results, folder: Path) -> list[Path]:
     others = [] if peers is None else [asdict(row) for row in peers.rows]
     said = {**said, "peers": [] if peers is None else list(peers.versions)}
     rows = [asdict(row) for row in results.rows]
-    data.write_text(dumps({**said, "rows": rows, "rows_of_peers": others}), "utf-8")
+    scenes = [{**asdict(r.scene), **asdict(r.verdict)} for r in results.scenes]
+    all_of_it = {**said, "scenes": scenes, "rows": rows, "rows_of_peers": others}
+    data.write_text(dumps(all_of_it), "utf-8")
     return [table, data]

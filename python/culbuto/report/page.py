@@ -76,6 +76,26 @@ def quickest(study: Study, target: float) -> Row | None:
     return min(good, key=lambda row: row.seconds_per_second, default=None)
 
 
+def behind(scenes: Iterable[dict[str, Any]], peers: Peers) -> list[str]:
+    """Where another engine takes less time for an error than we do, each with why."""
+    found = []
+    for scene in scenes:
+        for target in TARGETS if scene["others"] else ():
+            ours = quickest(scene["study"], target)
+            other = peers.quickest(scene["scene"].name, target)
+            if other is None or (ours and ours.seconds_per_second <= other.seconds_per_second):
+                continue
+            name = f"{scene['scene'].name.replace('_', ' ')} to {number(target)}: "
+            if ours is None:
+                why = f"only {label(other.engine)}; no run of ours comes so near"
+            else:
+                times = ours.seconds_per_second / other.seconds_per_second
+                why = f"{label(other.engine)} {times:.2g} times quicker, at {step(other.step)}"
+                why += f" where {label(ours.method)} takes {ours.steps} steps"
+            found.append(name + why)
+    return found
+
+
 def order(row: MethodCheck) -> str:
     """The measured order of a method, as the page shows it."""
     if row.exact:
@@ -123,7 +143,7 @@ def write_page(results: Results, folder: Path) -> list[Path]:
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
-    helpers = (number, seconds, step, whole, size, quickest, order, worst, mark, label)
+    helpers = (number, seconds, step, whole, size, quickest, behind, order, worst, mark, label)
     environment.globals.update({helper.__name__: helper for helper in helpers})
     panels = [
         style.inline(figure, f"throw{i}", "A thrown ball")

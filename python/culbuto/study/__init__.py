@@ -102,7 +102,8 @@ def _of_catalogue(
     # Each part has a row of the closed form; the first stands for all, and methods stay together.
     once = [row for k, row in enumerate(rows) if row.method != "closed_form" or k == 0]
     places = {name: k for k, name in enumerate(dict.fromkeys(row.method for row in once))}
-    return Study(entry, tuple(sorted(once, key=lambda row: places[row.method])))
+    ordered = tuple(sorted(once, key=lambda row: places[row.method]))
+    return Study(entry, ordered, entry.reference, entry.uncertainty)
 
 
 def _counts(scene: Scene, steps: Iterable[float]) -> list[int]:

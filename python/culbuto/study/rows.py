@@ -24,7 +24,8 @@ class Row:
 
     Either `step` (s) or `tolerance` is given. `method` is "closed_form" for the exact solution
     of constant forces, "contact_step" for a scene with contacts. `error` is the largest over
-    times and bodies, relative to the scene's length, infinite where the run diverged; `seconds`
+    times and bodies, relative to the scene's length, infinite where the run diverged, and
+    `uncertainty` how far what it is compared with may be off itself, likewise; `seconds`
     the median wall time of a run, `seconds_per_second` that for each simulated second; `energy`
     the change of the energy balance over the largest kinetic energy.
     """
@@ -34,6 +35,7 @@ class Row:
     step: float | None
     tolerance: float | None
     error: float
+    uncertainty: float
     seconds: float
     seconds_per_second: float
     steps: int

@@ -154,8 +154,12 @@ def study_world(
     ]
     ran = zip(jobs, runs.run_all(jobs, executor), strict=True)
     rows = [_row(case, job, run, compared) for job, run in ran if run is not None]
-    entry = Scene("", case.name, case.name, case.about, case.duration, None, None, scale.length)
-    return Study(entry, tuple(rows), reference.about, reference.uncertainty / scale.length)
+    off = reference.uncertainty / scale.length
+    entry = Scene(
+        "", case.name, case.name, case.about, reference.about, off,
+        case.duration, None, None, scale.length,
+    )  # fmt: skip
+    return Study(entry, tuple(rows), reference.about, off)
 
 
 def _row(case: Case, job: Job, run: Ran, compared: tuple[Reference, Scale]) -> Row:
@@ -168,6 +172,7 @@ def _row(case: Case, job: Job, run: Ran, compared: tuple[Reference, Scale]) -> R
         step=None if count is None else job.duration / count,
         tolerance=job.mode.tolerance,
         error=error,
+        uncertainty=reference.uncertainty / scale.length,
         seconds=run.seconds,
         seconds_per_second=run.seconds / job.duration,
         steps=run.steps,

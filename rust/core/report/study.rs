@@ -32,6 +32,8 @@ pub struct Row {
     pub mode: Mode,
     /// Largest error over times and bodies, relative to the scene's length.
     pub error: Real,
+    /// How far the answer may be off itself, likewise.
+    pub uncertainty: Real,
     /// Median wall time of a run (s).
     pub seconds: f64,
     /// The same for each second of world time.
@@ -104,9 +106,10 @@ pub fn study_by(scene: &Scene, what: &Study, methods: &[&'static dyn Method]) ->
         return Err(Error::invalid("scene", scene.name, "a scene whose answer is a motion"));
     };
     let mut rows = Vec::new();
+    let uncertainty = scene.uncertainty()?;
     if !is_contact(&motion) && takes_closed_form(&motion)? {
         let mut row = run(&motion, Mode::Step(motion.duration), what.repeats, &|_| Ok(()))?;
-        (row.scene, row.method) = (scene.name, "closed_form");
+        (row.scene, row.method, row.uncertainty) = (scene.name, "closed_form", uncertainty);
         rows.push(row);
     }
     for mover in movers(&motion, methods) {
@@ -117,7 +120,7 @@ pub fn study_by(scene: &Scene, what: &Study, methods: &[&'static dyn Method]) ->
         for mode in steps.chain(tolerances) {
             // A step that a method refuses (it says why) has no row.
             if let Ok(mut row) = run(&motion, mode, what.repeats, &prepare) {
-                (row.scene, row.method) = (scene.name, mover.name());
+                (row.scene, row.method, row.uncertainty) = (scene.name, mover.name(), uncertainty);
                 rows.push(row);
             }
         }
@@ -228,6 +231,7 @@ fn run(
         method: "",
         mode,
         error,
+        uncertainty: 0.0,
         seconds,
         seconds_per_second: seconds / motion.duration,
         steps: report.steps,

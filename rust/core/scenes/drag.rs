@@ -1,6 +1,6 @@
 //! Air drag, and the width it acts on.
 
-use super::{Answer, Check, Column, Judged, Motion, Number, Scene, Toleranced, at};
+use super::{Answer, Check, Column, Judged, Motion, Number, Reference, Scene, Toleranced, at};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::Air;
@@ -36,6 +36,7 @@ pub static FALL: Scene = Scene {
     name: "fall_with_drag",
     title: "A fall with air drag towards its terminal velocity",
     about: "v = v_t tanh(gt/v_t), y = −(v_t²/g) ln cosh(gt/v_t), v_t = √(mg/k) = 9.0416 m/s.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || ball_in_air(G, 0.0),
         exact: |t| {
@@ -80,6 +81,7 @@ pub static COAST: Scene = Scene {
     name: "coast_with_drag",
     title: "A ball slowed by air drag alone from 20 m/s",
     about: "v = v₀/(1 + kv₀t/m), x = (m/k) ln(1 + kv₀t/m). At t = 5: 1.53846153846, 21.3745779788.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || ball_in_air(0.0, SPEED),
         exact: |t| vec![coasted(t)],
@@ -110,6 +112,7 @@ pub static COAST_IN_ONE_STEP: Scene = Scene {
     name: "coast_in_one_step",
     title: "The same in one step with k·v₀·h/m = 10⁴",
     about: "The same formula; explicit drag overshoots from k·v·h/m = 2 on.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || ball_in_air(0.0, SPEED),
         exact: |t| vec![coasted(t)],
@@ -137,6 +140,7 @@ pub static SILHOUETTE: Scene = Scene {
     name: "silhouette",
     title: "The projected width of a turned box, and its mean over all directions",
     about: "a|sin φ| + b|cos φ| for a box a × b that moves along φ in its own frame; the mean of a convex shape is its perimeter/π (Cauchy).",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(silhouette),
     checks: &[],
 };

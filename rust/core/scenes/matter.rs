@@ -1,6 +1,6 @@
 //! Area, centroid and inertia of polygons.
 
-use super::{Answer, Number, Scene};
+use super::{Answer, Number, Reference, Scene};
 use crate::error::Result;
 use crate::math::{Real, Rot, Vec2, vec2};
 use crate::shapes::Shape;
@@ -10,6 +10,7 @@ pub static POLYGONS: Scene = Scene {
     name: "polygons",
     title: "Area, centroid and second moment of a square, an L and a needle 10⁶:1, also 10⁶ from the origin",
     about: "Exact rationals; a needle that is turned has vertices that are rounded, hence 10⁻¹⁰ there.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(numbers),
     checks: &[],
 };

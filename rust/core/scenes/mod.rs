@@ -13,6 +13,7 @@ mod joints;
 mod matter;
 mod newton;
 mod orbits;
+mod reference;
 mod reversal;
 mod rotation;
 mod soft;
@@ -20,6 +21,7 @@ mod stacks;
 mod stage;
 
 pub use file::SceneFile;
+pub use reference::Reference;
 
 use crate::error::{Error, Result};
 use crate::math::{Pose, Real, Vec2, vec2};
@@ -36,6 +38,8 @@ pub struct Scene {
     pub title: &'static str,
     /// What it is, and the formula of its answer.
     pub about: &'static str,
+    /// Where its answer comes from.
+    pub reference: Reference,
     /// What is known of it.
     pub answer: Answer,
     /// What is asked beyond the error of the motion.

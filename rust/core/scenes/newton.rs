@@ -1,6 +1,6 @@
 //! Newton's second law with forces that are constant, and constant between given times.
 
-use super::{Answer, Check, Column, Judged, Motion, Scene, Toleranced, at, weightless};
+use super::{Answer, Check, Column, Judged, Motion, Reference, Scene, Toleranced, at, weightless};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::ForceSchedule;
@@ -13,6 +13,7 @@ pub static PROJECTILE: Scene = Scene {
     name: "projectile",
     title: "A ball thrown from 1.5 m at (12, 9) m/s",
     about: "x = x₀ + v₀t + ½gt². At t = 2: (24, −0.12).",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = World::new(vec2(0.0, -G))?;
@@ -71,6 +72,7 @@ pub static CONSTANT_FORCE: Scene = Scene {
     name: "constant_force",
     title: "A box under a constant force and torque, any step up to half a second",
     about: "x = ½Ft²/m, θ = ½τt²/I.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: constant_force,
         exact: |t| vec![under_constant_force(t)],
@@ -108,6 +110,7 @@ pub static SCHEDULED_FORCE: Scene = Scene {
     name: "scheduled_force",
     title: "A force that is constant between given times",
     about: "x(t) = Σ Fᵢ/m·(½s² + s·(t − end of piece i)), s the time that piece i has acted.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = weightless()?;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::stage::with_tolerance;
-use super::{Answer, Judged, Motion, Scene, Toleranced, at, weightless};
+use super::{Answer, Judged, Motion, Reference, Scene, Toleranced, at, weightless};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::Central;
@@ -48,6 +48,7 @@ pub static KEPLER: Scene = Scene {
     name: "kepler",
     title: "Kepler's ellipse, e = 0.6, from the nearest point, as a force field",
     about: "Kepler's equation t = u − e sin u; period 2π. At t = 1: (−0.628948176827, 0.799664730970). The fixed step is a 500th of the period.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: kepler,
         exact: |t| vec![on_ellipse(t)],
@@ -92,6 +93,7 @@ pub static CIRCLE: Scene = Scene {
     name: "circular_motion",
     title: "Uniform circular motion under the centripetal force mv²/r",
     about: "(r cos ωt, r sin ωt), ω = v/r, where the force towards the centre is mv²/r.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = weightless()?;

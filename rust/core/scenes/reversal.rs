@@ -1,6 +1,6 @@
 //! Time reversal: what a conservative motion must be able to do.
 
-use super::{Answer, Number, Scene, weightless};
+use super::{Answer, Number, Reference, Scene, weightless};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::Attraction;
@@ -13,6 +13,7 @@ pub static THREE_BODIES: Scene = Scene {
     name: "reversal",
     title: "Three bodies that attract one another: there, velocities reversed, and back",
     about: "A conservative motion run for 3 s, then with reversed velocities for 3 s more, is back at its start.",
+    reference: Reference::Law,
     answer: Answer::Numbers(numbers),
     checks: &[],
 };

@@ -1,6 +1,6 @@
 //! Rotation: decay, free spin, and a torque that varies in time.
 
-use super::{Answer, Check, Column, Judged, Motion, Scene, Toleranced, weightless};
+use super::{Answer, Check, Column, Judged, Motion, Reference, Scene, Toleranced, weightless};
 use crate::body::BodyDef;
 use crate::error::Result;
 use crate::forces::Oscillating;
@@ -28,6 +28,7 @@ pub static SPIN_DECAY: Scene = Scene {
     name: "spin_decay",
     title: "A spin that decays at a rate c",
     about: "ω = ω₀e^(−ct), θ = ω₀(1 − e^(−ct))/c, with ω₀ = 10 rad/s, c = 0.8/s.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || disk(10.0, 0.8),
         exact: |t| turned(-10.0 * exp_m1(-0.8 * t) / 0.8),
@@ -55,6 +56,7 @@ pub static FREE_SPIN: Scene = Scene {
     name: "free_spin",
     title: "A free spin of 10⁴ rad/s for 10 s",
     about: "θ = 10⁵ rad; the rotation stays of unit length. Errors are relative to θ.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || disk(1e4, 0.0),
         exact: |t| turned(1e4 * t),
@@ -89,6 +91,7 @@ pub static VARYING_TORQUE: Scene = Scene {
     name: "varying_torque",
     title: "A torque that varies in time, τ₀ sin(Ωt + φ)",
     about: "θ = (τ₀/I)·[cos φ·t/Ω + (sin φ − sin(Ωt + φ))/Ω²].",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = weightless()?;

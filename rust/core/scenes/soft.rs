@@ -1,6 +1,6 @@
 //! Deformable bodies beside beam theory. L = 1 m, H = 0.1 m, E = 1 MPa, ν = 0.3, plane stress, unit thickness.
 
-use super::{Answer, Number, Scene};
+use super::{Answer, Number, Reference, Scene};
 use crate::error::Result;
 use crate::math::{PI, Real, Vec2, vec2};
 use crate::soft::{Gas, Material, Mesh, Plane, Rope, SoftBody, SoftDef, SoftHandle};
@@ -21,6 +21,7 @@ pub static END_LOAD: Scene = Scene {
     name: "cantilever",
     title: "A beam with a load at its end, 1, 2 and 4 triangles' rows through its depth",
     about: "Timoshenko: FL³/3EI + FL/(5/6)GA; 2 % is asked with 4 rows. Held at all nodes of one end, which beam theory does not hold across.",
+    reference: Reference::Figures(3e-3),
     answer: Answer::Numbers(end_load),
     checks: &[],
 };
@@ -30,6 +31,7 @@ pub static OWN_WEIGHT: Scene = Scene {
     name: "own_weight",
     title: "A beam under its own weight",
     about: "wL⁴/8EI + wL²/2(5/6)GA.",
+    reference: Reference::Figures(3e-3),
     answer: Answer::Numbers(own_weight),
     checks: &[],
 };
@@ -39,6 +41,7 @@ pub static AXIAL: Scene = Scene {
     name: "axial_bar",
     title: "A bar that swings along its length: the frequency, with 1 and 8 substeps",
     about: "√(E/ρ)/4L, with ν = 0 so that nothing moves across.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(axial),
     checks: &[],
 };
@@ -48,6 +51,7 @@ pub static LARGE: Scene = Scene {
     name: "elastica",
     title: "A beam bent far by a load that keeps its direction",
     about: "Bisshopp and Drucker (1945), PL²/EI = 1, 2, 5, 10, for a beam that neither stretches nor shears.",
+    reference: Reference::Figures(0.02),
     answer: Answer::Numbers(large),
     checks: &[],
 };
@@ -57,6 +61,7 @@ pub static PATCH: Scene = Scene {
     name: "patch_test",
     title: "An irregular mesh whose border is stretched and sheared alike has one strain everywhere",
     about: "Nodes inside are let go from elsewhere and come to rest where the border's motion puts them, if elements can represent a constant strain.",
+    reference: Reference::Law,
     answer: Answer::Numbers(patch),
     checks: &[],
 };
@@ -66,6 +71,7 @@ pub static RIGID: Scene = Scene {
     name: "rigid_motion",
     title: "Turned and moved it has no stress; thrown, it keeps momentum, angular momentum and energy",
     about: "Forces are gradients of an energy that rigid motion does not change, and steps keep that energy.",
+    reference: Reference::Law,
     answer: Answer::Numbers(rigid),
     checks: &[],
 };
@@ -75,6 +81,7 @@ pub static AREA: Scene = Scene {
     name: "area_kept",
     title: "A beam of ν = 0.4999 in plane strain keeps its area and does not lock; a balloon keeps p·A",
     about: "Bent by a load, against wL³/3E'I + shear with E' = E/(1 − ν²).",
+    reference: Reference::Figures(0.03),
     answer: Answer::Numbers(area),
     checks: &[],
 };
@@ -84,6 +91,7 @@ pub static RANDOM: Scene = Scene {
     name: "random_vertices",
     title: "A block whose nodes are put anywhere comes back to its shape",
     about: "ψ has no minimum but rest in a triangle, flat and inside out included. Energies never grow on the way.",
+    reference: Reference::Law,
     answer: Answer::Numbers(random),
     checks: &[],
 };

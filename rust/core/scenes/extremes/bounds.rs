@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::math::{Real, vec2};
 use crate::scenes::gauge::{Gauge, at_most};
 use crate::scenes::stacks::{ground, tower};
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::shapes::Shape;
 
 pub static GRAVITY: Scene = Scene {
@@ -13,6 +13,7 @@ pub static GRAVITY: Scene = Scene {
     name: "huge_gravity",
     title: "Gravity of 10⁴ m/s² on a stack of 20 boxes",
     about: "Boxes of 1 m, for 5 s: no energy from nothing, and each stays above the one below it.",
+    reference: Reference::Law,
     answer: Answer::Numbers(huge_gravity),
     checks: &[],
 };
@@ -36,6 +37,7 @@ pub static SPIN: Scene = Scene {
     title: "Bodies that spin at 10⁴ rad/s on the ground",
     about: "A disk, r = 0.1, set down with ω = 10⁴ rad/s on ground with μ = 0.5 slips for a long time: x = ½μgt², \
         ω = ω₀ − 2μgt/r. A box and a rod that spin so and fall to the ground: no energy from nothing, no overlap that lasts.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(spin),
     checks: &[],
 };

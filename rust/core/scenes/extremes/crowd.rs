@@ -5,7 +5,7 @@ use crate::body::BodyDef;
 use crate::error::Result;
 use crate::math::{Real, vec2};
 use crate::scenes::gauge::{Gauge, at_most};
-use crate::scenes::{Answer, Number, Scene, weightless};
+use crate::scenes::{Answer, Number, Reference, Scene, weightless};
 use crate::shapes::Shape;
 
 pub static CROWD: Scene = Scene {
@@ -15,6 +15,7 @@ pub static CROWD: Scene = Scene {
     about: "Disks of radius 0.1, or boxes of 0.2, all put at the same point, without gravity, at rest. They part by corrections of their \
         places: in 60 s none overlaps by more than 10⁻³ of its width, and no speed above 10⁻⁶ m/s comes of it. Boxes turned \
         at random, too.",
+    reference: Reference::Law,
     answer: Answer::Numbers(numbers),
     checks: &[],
 };

@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::math::{Real, Vec2, vec2};
 use crate::scenes::gauge::{Gauge, at_most};
 use crate::scenes::stacks::ground;
-use crate::scenes::{Answer, Number, Scene, weightless};
+use crate::scenes::{Answer, Number, Reference, Scene, weightless};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -18,6 +18,7 @@ pub static GRAZING: Scene = Scene {
     about: "A disk, r = ½, and a box pass a box at v = 5 m/s, without friction and without gravity. 10⁻⁹ m away they keep their velocity. \
         δ = 10⁻⁹ m too low, the disk is hit by (1 + e)·v·√(2δ/r); without a bounce it may slip by, its overlap being so small. Two squares fall corner on corner, \
         also off by 10⁻⁹; a box slides along links that lie in one line, and falls between two walls that touch it.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(numbers),
     checks: &[],
 };

@@ -9,7 +9,7 @@ use crate::body::{BodyDef, BodyKind, Friction, Surface};
 use crate::error::Result;
 use crate::math::{Real, vec2};
 use crate::scenes::gauge::{Gauge, Seen, at_most, worse};
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -25,6 +25,7 @@ const SHORT: Scene = Scene {
     name: "random_bins",
     title: "Random scenes in a bin: 10 for 1000 steps",
     about: ABOUT,
+    reference: Reference::Law,
     answer: Answer::Numbers(|| numbers(0..10, 1_000)),
     checks: &[],
 };

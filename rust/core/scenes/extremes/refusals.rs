@@ -6,7 +6,7 @@ use crate::body::{BodyDef, Friction, Surface};
 use crate::error::{Error, Result};
 use crate::math::{Real, Vec2, Wrench, vec2};
 use crate::scenes::gauge::at_most;
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -16,6 +16,7 @@ pub static BAD_OUTLINES: Scene = Scene {
     title: "Duplicate, collinear, clockwise and self-crossing outlines",
     about: "Duplicate vertices, vertices on straight edges and the clockwise sense are mended: area 1 as of the unit square. Outlines that \
         cross, touch or fold back on themselves, have no area or are no numbers are refused with a message.",
+    reference: Reference::Law,
     answer: Answer::Numbers(outlines),
     checks: &[],
 };
@@ -77,6 +78,7 @@ pub static BAD_MATTER: Scene = Scene {
     name: "bad_matter",
     title: "Zero, infinite and undefined masses, inertias, forces, steps and the like",
     about: "Each is refused with a message that names it and says what is allowed, and the world is left to the bit as it was.",
+    reference: Reference::Law,
     answer: Answer::Numbers(matter),
     checks: &[],
 };

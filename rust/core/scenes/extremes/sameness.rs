@@ -4,7 +4,7 @@ use super::layout::{ALL, Layout, Small, difference};
 use crate::error::Result;
 use crate::math::{Real, vec2};
 use crate::scenes::gauge::at_most;
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::world::{Snapshot, World};
 
 pub static SIZES: Scene = Scene {
@@ -14,6 +14,7 @@ pub static SIZES: Scene = Scene {
     about: "Lengths times s, times and speeds times √s, gravity the same: the same numbers, for 2 s and in the pile ½ s, before \
         rounding grows. Differences of places over s, of velocities over √s and of angles; any length, speed or time hidden \
         in the engine would show.",
+    reference: Reference::Law,
     answer: Answer::Numbers(sizes),
     checks: &[],
 };
@@ -36,6 +37,7 @@ pub static OFFSET: Scene = Scene {
     name: "far_from_the_origin",
     title: "A tumbling box, a bouncing ball and a pile 10⁶ and 10⁷ m from the origin",
     about: "The same motion as at the origin, for 2 s and in the pile ½ s. Coordinates of 10⁷ m have steps of 1.9·10⁻⁹ m.",
+    reference: Reference::Law,
     answer: Answer::Numbers(offset),
     checks: &[],
 };
@@ -62,6 +64,7 @@ pub static REPEATS: Scene = Scene {
     title: "The same bits every time",
     about: "A tumbling box, a bouncing ball and a pile for 5 s: again; from a copy; and through the bytes of a snapshot halfway. \
         Numbers (places, angles, velocities) that differ in any bit.",
+    reference: Reference::Law,
     answer: Answer::Numbers(repeats),
     checks: &[],
 };

@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::math::{Real, vec2};
 use crate::scenes::gauge::at_most;
 use crate::scenes::stage::{DT, HALF, add_ground, heavy, rough};
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::shapes::Shape;
 
 pub static SLEEPERS: Scene = Scene {
@@ -14,6 +14,7 @@ pub static SLEEPERS: Scene = Scene {
     title: "Bodies that sleep cost no work",
     about: "Stacks of two boxes of 1 m fall asleep within a second; a ball then rolls beside them. Sweeps over contacts and steps are \
         those of a world with the ball alone.",
+    reference: Reference::Law,
     answer: Answer::Numbers(numbers),
     checks: &[],
 };

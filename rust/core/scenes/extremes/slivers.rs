@@ -5,7 +5,7 @@ use crate::error::Result;
 use crate::math::{Real, Vec2, vec2};
 use crate::scenes::gauge::{Gauge, at_most};
 use crate::scenes::stacks::ground;
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::shapes::Shape;
 
 pub static SLIVERS: Scene = Scene {
@@ -14,6 +14,7 @@ pub static SLIVERS: Scene = Scene {
     title: "Needles of 10³ : 1 and 10⁶ : 1 and triangles with an angle of 10⁻⁴ rad",
     about: "Eight of 1 m fall on the ground and on one another from 0.3 m on, turned each another way, some with restitution, \
         and lie there for 20 s: no energy from nothing, at rest no overlap beyond 10⁻³ of the width.",
+    reference: Reference::Law,
     answer: Answer::Numbers(numbers),
     checks: &[],
 };

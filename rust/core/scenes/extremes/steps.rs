@@ -5,7 +5,7 @@ use super::random::Dice;
 use crate::error::Result;
 use crate::math::powf;
 use crate::scenes::gauge::{Gauge, at_most};
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 
 pub static STEPS: Scene = Scene {
     id: "X10",
@@ -13,6 +13,7 @@ pub static STEPS: Scene = Scene {
     title: "A resting box and a pile at steps from 10⁻⁶ s to 0.5 s, and at steps that vary",
     about: "The box stays; the pile finishes; neither gains energy. Varying steps are drawn anew each time, evenly on the scale of \
         their logarithms.",
+    reference: Reference::Law,
     answer: Answer::Numbers(numbers),
     checks: &[],
 };

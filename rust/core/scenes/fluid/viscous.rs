@@ -5,7 +5,7 @@ use crate::body::{BodyDef, BodyKind};
 use crate::error::Result;
 use crate::fluid::{Material, lattice_in};
 use crate::math::{PI, Real, exp, sin_cos, vec2};
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::world::World;
 
 /// Between the plates (m).
@@ -82,6 +82,7 @@ pub static POISEUILLE: Scene = Scene {
     title: "Fluid between two plates begins to flow by its weight along them",
     about: "40 rows. u = U (4y(h − y)/h² − Σ 32/(n³π³) sin(nπy/h) e^(−n²π²νt/h²)) over odd n, U = gh²/(8ν), at Uh/ν = 0.5; the \
             fluid is a slug with free ends, and is judged in its middle half, before and after it is steady.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(poiseuille),
     checks: &[],
 };
@@ -99,6 +100,7 @@ pub static COUETTE: Scene = Scene {
     name: "couette",
     title: "Fluid between two plates, one of which moves",
     about: "40 rows. u = U (y/h + Σ 2(−1)ⁿ/(nπ) sin(nπy/h) e^(−n²π²νt/h²)), at Uh/ν = 0.5; judged as the flow by weight.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(couette),
     checks: &[],
 };

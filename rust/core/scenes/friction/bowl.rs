@@ -4,7 +4,7 @@ use crate::body::{BodyDef, BodyKind};
 use crate::error::Result;
 use crate::math::{Pose, Real, sin_cos, vec2};
 use crate::scenes::stage::{DT, G, at_fixed_step, heavy, rough, standing};
-use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced, at};
+use crate::scenes::{Answer, Judged, Motion, Reference, Scene, Toleranced, at};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -89,6 +89,7 @@ pub static BOWL: Scene = Scene {
     name: "bowl",
     title: "A ball in a bowl, smooth and rolling",
     about: "A pendulum of length R − r; of small swings ω = √(g/(R − r)) where it is smooth, √(2g/3(R − r)) where the ball rolls. Nothing is lost.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || bowls(START),
         exact: |t| {

@@ -7,7 +7,7 @@ use crate::scenes::stage::{
     DT, G, HALF, TOLERANCE, add_ground, at_fixed_step, ground, heavy, on_plane, rough, standing,
     threshold, threshold_to, with_tolerance,
 };
-use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced};
+use crate::scenes::{Answer, Judged, Motion, Reference, Scene, Toleranced};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -42,6 +42,7 @@ pub static ROLLING: Scene = Scene {
     name: "rolling_disk",
     title: "A disk on an incline rolls, or slides where friction is too little",
     about: "With tan α = ½ it rolls iff μ ≥ tan α/3 = 1/6, at ⅔g sin α = 2.92477691457 m/s²; else it goes at g(sin α − μ cos α) and turns at 2μg cos α/r.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let start = |k: usize| [FRICTIONS[k], PLACES[k], 0.0];
@@ -104,6 +105,7 @@ pub static SLIDE_TO_ROLL: Scene = Scene {
     name: "slide_to_roll",
     title: "A disk that slides at 10 m/s begins to roll, μ = 0.5",
     about: "At t = v/3μg = 0.679578661230 s and x = 5.66315551025 m, at ⅔v = 20/3 m/s.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || disks(0.0, &[[FRICTION, 0.0, SPEED]]),
         exact: |t| {

@@ -8,7 +8,7 @@ use crate::scenes::stage::{
     DT, G, HALF, TOLERANCE, add_ground, at_fixed_step, ground, heavy, on_plane, rough, standing,
     with_tolerance,
 };
-use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced};
+use crate::scenes::{Answer, Judged, Motion, Reference, Scene, Toleranced};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -47,6 +47,7 @@ pub static INCLINE: Scene = Scene {
     name: "incline",
     title: "A block on an incline, friction a thousandth above and below what holds it",
     about: "It stays for ever with μ ≥ tan α, and slides with less: ½g(sin α − μ cos α)t².",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| Ok(Vec::new())),
     checks: &[
         at_fixed_step("way in 60 s with μ = 1.001 tan α (m)", 1e-6, || {
@@ -83,6 +84,7 @@ pub static SLIDING: Scene = Scene {
     name: "sliding_block",
     title: "A block slides down an incline, tan α = ½, μ = 0.3",
     about: "a = g(sin α − μ cos α) = 1.75486614874 m/s².",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || on_slope(incline()[2], &rough(0.3), 0.0),
         exact: |t| {
@@ -113,6 +115,7 @@ pub static STOPPING: Scene = Scene {
     name: "stopping_block",
     title: "A block slides to rest from 10 m/s, μ = 0.5",
     about: "At rest after v²/2μg = 10.1936799185 m and v/μg = 2.03873598369 s.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || on_slope(0.0, &rough(0.5), SPEED),
         exact: |t| {
@@ -223,6 +226,7 @@ pub static BREAKAWAY: Scene = Scene {
     name: "breakaway",
     title: "A block pulled ever harder breaks away, static friction above kinetic",
     about: "Pulled by F = ct it stays until μs·m·g/c, and goes with (ct − μk·m·g)/m from then on. The pull is a schedule that changes with each substep.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: pulled,
         exact: |t| vec![ground(0.0), block(0.0, way_pulled(t))],
@@ -262,6 +266,7 @@ pub static CONVEYOR: Scene = Scene {
     name: "conveyor",
     title: "A block is put on a conveyor of 2 m/s, μ = 0.3",
     about: "It catches up after u/μg, having slipped u²/2μg.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = heavy()?;

@@ -7,7 +7,7 @@ use crate::scenes::stage::{
     DT, G, TOLERANCE, add_ground, heavy, on_plane, rough, standing, threshold, threshold_to,
     with_tolerance,
 };
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -58,6 +58,7 @@ pub static TIPPING: Scene = Scene {
     name: "tipping_box",
     title: "A box b × h on an incline tips over",
     about: "It tips iff tan α > b/h.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         let tips =
             |tangent: Real| Ok(moved(upright(atan2(tangent, 1.0), 2.0, [0.0; 2])?)?[0] > MOVED);
@@ -86,6 +87,7 @@ pub static PUSHED_BOX: Scene = Scene {
     name: "pushed_box",
     title: "A box pushed at a height H tips or slides",
     about: "It tips iff F > mgb/2H, and slides iff F > μmg.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         let tips = |force: Real| Ok(moved(upright(0.0, 1.0, push(force))?)?[0] > MOVED);
         let slides = |force: Real| {
@@ -154,6 +156,7 @@ pub static DOMINOES: Scene = Scene {
     name: "dominoes",
     title: "Eight dominoes, half a height apart and more than a height apart",
     about: "The first does not reach the second where the gap is above the height, and the wave passes at half of it.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         let number = |what: &str, gap: Real, exact: u32| {
             let what = format!("dominoes fallen at a gap of {gap} {what}");

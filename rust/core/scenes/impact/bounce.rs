@@ -6,7 +6,7 @@ use crate::math::{Pose, Real, vec2};
 use crate::scenes::stage::{
     DT, G, TOLERANCE, add_ground, at_fixed_step, ground, heavy, smooth, with_tolerance,
 };
-use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced, at};
+use crate::scenes::{Answer, Judged, Motion, Reference, Scene, Toleranced, at};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -59,6 +59,7 @@ pub static DROPS: Scene = Scene {
     name: "drops",
     title: "Balls dropped from 1 m come to rest, restitution 0.5, 0.8 and 0.9",
     about: "First at the ground at √(2h/g) = 0.451523640986 s; the k-th top is e²ᵏh; at rest after √(2h/g)·(1 + e)/(1 − e), infinitely many bounces later.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || dropped(1.0, &RESTITUTIONS),
         exact: |t| poses(1.0, &RESTITUTIONS, t),
@@ -155,6 +156,7 @@ pub static ELASTIC_BALL: Scene = Scene {
     name: "elastic_ball",
     title: "A ball that keeps all its energy, dropped from 5 m for 20 s",
     about: "It meets the ground every 2√(2h/g) and is back at h in between; its energy stays what it is.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || dropped(5.0, &[1.0]),
         exact: |t| poses(5.0, &[1.0], t),

@@ -6,7 +6,7 @@ use crate::body::{BodyDef, BodyKind, Surface};
 use crate::error::Result;
 use crate::math::{Real, Twist, Vec2, sin_cos, vec2};
 use crate::scenes::stage::{DT, Random};
-use crate::scenes::{Answer, Number, Scene, weightless};
+use crate::scenes::{Answer, Number, Reference, Scene, weightless};
 use crate::shapes::Shape;
 
 /// Thickness of the wall and of the bar (m).
@@ -17,6 +17,7 @@ pub static BULLETS: Scene = Scene {
     name: "bullets",
     title: "1000 shots of 1e3 to 1e5 m/s at a wall of 1 mm, and 200 at a bar of 1 mm that turns",
     about: "None goes through.",
+    reference: Reference::Law,
     answer: Answer::Numbers(bullets),
     checks: &[],
 };

@@ -4,7 +4,7 @@ use crate::body::{BodyDef, BodyKind};
 use crate::error::Result;
 use crate::math::{Real, Twist, Vec2, vec2};
 use crate::scenes::stage::{DT, G, Random, TOLERANCE, at_fixed_step, smooth, with_tolerance};
-use crate::scenes::{Answer, Number, Scene, weightless};
+use crate::scenes::{Answer, Number, Reference, Scene, weightless};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -13,6 +13,7 @@ pub static GALPERIN: Scene = Scene {
     name: "galperin",
     title: "A heavy ball drives a light one against a wall, again and again",
     about: "Wall, 1 kg at rest, 100^N kg arriving, e = 1: the number of hits has the first digits of π, 3 and 31 for N = 0 and 1 (Galperin, Playing pool with π, 2003).",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         galperin(&[(1.0, 3.0), (100.0, 31.0)], |world| world.steps(DT, 1200))
     }),
@@ -121,6 +122,7 @@ pub static BILLIARD: Scene = Scene {
     name: "elastic_disks",
     title: "200 elastic disks in a box for a minute",
     about: "Their energy stays what it is. With all velocities reversed they go back the way they came, for as long as rounding is not yet blown up: the first half of a second here.",
+    reference: Reference::Law,
     answer: Answer::Numbers(|| Ok(Vec::new())),
     checks: &[
         at_fixed_step("change of the energy", 1e-3, || {
@@ -154,6 +156,7 @@ pub static GAS: Scene = Scene {
     name: "elastic_gas",
     title: "A gas of 100 elastic disks keeps its energy for a minute, without weight and with it",
     about: "Energy stays what it is.",
+    reference: Reference::Law,
     answer: Answer::Numbers(|| Ok(Vec::new())),
     checks: &[
         at_fixed_step("change of the energy, without weight", 1e-3, || {

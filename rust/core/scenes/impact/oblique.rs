@@ -6,7 +6,7 @@ use crate::math::{Pose, Real, vec2};
 use crate::scenes::stage::{
     DT, TOLERANCE, add_ground, at_fixed_step, ground, rough, with_tolerance,
 };
-use crate::scenes::{Answer, Judged, Motion, Scene, Toleranced, weightless};
+use crate::scenes::{Answer, Judged, Motion, Reference, Scene, Toleranced, weightless};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -55,6 +55,7 @@ pub static OBLIQUE: Scene = Scene {
     name: "oblique_impact",
     title: "A disk strikes rough ground at (4, −3) m/s, e = 0.8",
     about: "With μ = 0.1 it slides all through the impact: (3.46, 2.4) m/s and 2.16 rad/s; with μ = 0.5 it ends rolling: (8/3, 2.4) and 16/3. The centre lies on the normal, so that Newton's, Poisson's and Stronge's laws agree (Stronge, Impact Mechanics, 2000, ch. 3).",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: disks,
         exact: |t| {

@@ -4,7 +4,7 @@ use crate::body::BodyDef;
 use crate::error::Result;
 use crate::math::{Real, Vec2, atan2, vec2};
 use crate::scenes::stage::{DT, TOLERANCE, at_fixed_step, smooth, with_tolerance};
-use crate::scenes::{Answer, Judged, Motion, Number, Scene, Toleranced, at, weightless};
+use crate::scenes::{Answer, Judged, Motion, Number, Reference, Scene, Toleranced, at, weightless};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -31,6 +31,7 @@ pub static HEAD_ON: Scene = Scene {
     name: "head_on",
     title: "Two disks meet head-on, masses from 1e-3 to 1e6 kg, restitution from 0 to 1",
     about: "m₁v₁ + m₂v₂ stays, and they part with e times the speed they meet with (Newton).",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| head_on(|world| world.steps(DT, 30))),
     checks: &[with_tolerance("change of momentum, and restitution, largest", 1e-13, || {
         let numbers = head_on(|world| world.advance(0.5, TOLERANCE).map(drop))?;
@@ -71,6 +72,7 @@ pub static SMOOTH_DISKS: Scene = Scene {
     name: "smooth_disks",
     title: "A smooth disk strikes another at impact parameter b",
     about: "The struck one leaves along the normal, asin(b/2R) off the line of flight; with equal masses and e = 1 the other at a right angle to it.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| smooth_disks(|world| world.steps(DT, 60))),
     checks: &[with_tolerance("error of the directions, largest (rad)", 1e-10, || {
         let numbers = smooth_disks(|world| world.advance(1.0, TOLERANCE).map(drop))?;
@@ -130,6 +132,7 @@ pub static CRADLE: Scene = Scene {
     name: "cradle",
     title: "Newton's cradle of five balls, 1 mm apart and touching",
     about: "Each ball hands all its speed to the next, and the last leaves with it.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || cradle(GAPS, SPEED),
         exact: |t| {

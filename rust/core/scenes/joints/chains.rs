@@ -7,7 +7,7 @@ use crate::joint::{JointDef, JointHandle};
 use crate::math::{PI, Real, Vec2, atan2, cos, vec2};
 use crate::scenes::gauge::{at_most, worse};
 use crate::scenes::stage::{DT, G, heavy, with_tolerance};
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::world::World;
 
 /// Links of the swinging chains, and the first zero of the Laguerre polynomial of that degree.
@@ -77,6 +77,7 @@ pub static CHAIN_SWING: Scene = Scene {
     name: "hanging_chain_swing",
     title: "Hanging chains of 3, 5 and 10 points in their slowest small swing",
     about: "ω² = (g/l)·x with x the first zero of the Laguerre polynomial L_N: 0.415774556783, 0.263560319718, 0.137793470540.",
+    reference: Reference::Figures(4e-12),
     answer: Answer::Numbers(|| {
         let number = |(n, x): (usize, Real)| {
             let exact = 2.0 * PI / libm::sqrt(G * x);
@@ -154,6 +155,7 @@ pub static CATENARY: Scene = Scene {
     title: "A chain of 10 and of 20 rods, 2 m long, hangs between points 1.6 m apart for 10 s",
     about: "tan φ_i = (i + ½ − N/2)(W/N)/H. N = 10: H/W = 0.337301091711, sag 0.533728851647, pull at the ends 0.603135164345 W; \
         N = 20: 0.337976109594, 0.531583133233, 0.603512925012.",
+    reference: Reference::Figures(2e-12),
     answer: Answer::Numbers(|| {
         let mut numbers = Vec::new();
         for (n, pull, deep, end) in CATENARIES {
@@ -225,6 +227,7 @@ pub static LOADED_CHAIN: Scene = Scene {
     name: "loaded_chain",
     title: "A hanging chain of 20 rods, the last of 1 … 10⁶ times the mass of a link",
     about: "It does not stretch; each joint bears the weight below it.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         let mut numbers = Vec::new();
         for mass in [1.0, 1e3, 1e6] {

@@ -7,7 +7,7 @@ use crate::joint::{Given, Hold, JointDef, JointKind, Motor, Travel};
 use crate::math::{Pose, Real, Vec2, vec2};
 use crate::scenes::gauge::at_most;
 use crate::scenes::stage::{DT, G, at_fixed_step, heavy};
-use crate::scenes::{Answer, Judged, Motion, Number, Scene, at, weightless};
+use crate::scenes::{Answer, Judged, Motion, Number, Reference, Scene, at, weightless};
 use crate::world::World;
 
 /// Mass (kg) and inertia (kg·m²) of the disk, bound of its motor (N·m), and the speed it is brought to (rad/s).
@@ -31,6 +31,7 @@ pub static MOTOR: Scene = Scene {
     name: "motor_with_bounded_torque",
     title: "A motor of 1.5 N·m spins up a disk",
     about: "ω = τt/I until the speed that it is to have, then that.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || motored(TORQUE),
         exact: |t| vec![Pose::new(Vec2::zeros(), 0.5 * TORQUE / INERTIA * t * t)],
@@ -80,6 +81,7 @@ pub static SLIDER: Scene = Scene {
     name: "prismatic_motor",
     title: "A motor of 20 N lifts 2 kg along a slider of slope ¾, to a limit at 10 m",
     about: "½(F/m − g sin α)t² until its speed is reached; in the end it stands at the limit.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || Ok(slider()?.0),
         exact: |t| {
@@ -125,6 +127,7 @@ pub static RATCHET: Scene = Scene {
     name: "ratchet",
     title: "A ratchet with notches 0.3 rad apart, turned forward by hand and driven back by a torque",
     about: "It turns forward freely, and back only to the last notch that it has passed.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         let [angle, speed] = ratchet()?;
         // At 2 rad/s it is at 1 rad after ½ s; the torque takes it on to 1 + ω²I/2τ = 5/3 rad, past the notch at 1.5.
@@ -158,6 +161,7 @@ pub static FRICTION: Scene = Scene {
     name: "friction_joint",
     title: "A friction joint brings a disk to rest that moves and spins",
     about: "Straight on, with F/m and τ/I, to rest after mv²/2F and Iω²/2τ.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || Ok(braked()?.0),
         exact: |t| {
@@ -202,6 +206,7 @@ pub static BOUNDED_GRAB: Scene = Scene {
     name: "bounded_grab",
     title: "A hard grab joint of at most 30 N lifts 2 kg",
     about: "While the point is far it draws with all it has, ½(F/m − g)t²; it brakes in time, and holds.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || lifted(100.0),
         exact: |t| vec![at(0.0, 0.5 * (PULL / SLED - G) * t * t)],

@@ -7,7 +7,7 @@ use crate::joint::{Coefficients, Hold, JointDef, JointKind, Spring};
 use crate::math::{PI, Real, Vec2, cos, vec2};
 use crate::scenes::gauge::{at_most, worse};
 use crate::scenes::stage::{DT, G, heavy};
-use crate::scenes::{Answer, Scene, weightless};
+use crate::scenes::{Answer, Reference, Scene, weightless};
 use crate::world::World;
 
 /// Ten rods from the side, the last with a mass of its own.
@@ -70,6 +70,7 @@ pub static RATIOS: Scene = Scene {
     title: "Mass ratios of 10⁻³ … 10⁶ in a falling chain, across a hinge and across a spring",
     about: "A chain of ten rods let go from the side for 4 s, two free rods on a hinge, two masses on a spring of 2 Hz (exact: cos ωt, \
         ω² = k(1/m₁ + 1/m₂)). Joints do not open, no energy is made, the books balance.",
+    reference: Reference::Law,
     answer: Answer::Numbers(|| {
         let mut numbers = Vec::new();
         for ratio in [1e-3, 1e-2, 0.1, 10.0, 1e3, 1e6] {
@@ -130,6 +131,7 @@ pub static STIFFNESS: Scene = Scene {
     name: "joint_stiffness",
     title: "Joints of 0.1 Hz … 10⁶ Hz, ζ = 0 … 10",
     about: "Under a load they sag by g/ω², exactly; without one they do not grow.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         let mut numbers = Vec::new();
         for power in -1..=6 {

@@ -8,7 +8,7 @@ use crate::joint::JointDef;
 use crate::math::{PI, Pose, Real, Vec2, cos, ln_1p, sin_cos, vec2};
 use crate::scenes::gauge::worse;
 use crate::scenes::stage::{DT, G, at_fixed_step, heavy, with_tolerance};
-use crate::scenes::{Answer, Judged, Motion, Number, Scene, at};
+use crate::scenes::{Answer, Judged, Motion, Number, Reference, Scene, at};
 use crate::world::World;
 
 /// Where something is that hangs at a distance from the origin, at an angle from the lowest point.
@@ -106,6 +106,7 @@ pub static POINT: Scene = Scene {
     name: "point_pendulum",
     title: "A point on a massless rod of 1 m, from 90°",
     about: "T = 2π√(L/g)/agm(1, cos(θ₀/2)) = 2.36784194758 s, θ(10) = 0.278680673570; sin(θ/2) = k cd(ω₀t, k).",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || point(PI / 2.0),
         exact: |t| {
@@ -143,6 +144,7 @@ pub static ROD: Scene = Scene {
     name: "rod_pendulum",
     title: "A rod of 1 m pinned at its end, from 90°",
     about: "As the point at 2/3 of its length: T = 1.93333485437 s, θ(10) = 0.770957622575.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || pinned(PI / 2.0),
         exact: |t| {
@@ -193,6 +195,7 @@ pub static DOUBLE: Scene = Scene {
     title: "Two rods of 1 m let go along +x",
     about: "Centre of the outer rod: t = 1 (−1.29846124298, −0.698310920025), t = 3 (1.09259783017, −0.958835114754), \
         t = 5 (1.38162318410, −0.579242574199), by integration in two angles.",
+    reference: Reference::Figures(1e-11),
     answer: Answer::Numbers(|| Ok(Vec::new())),
     checks: &[
         at_fixed_step("outer centre at t = 1 (m)", 1e-2, || outer_off(OUTER[0], 4)),
@@ -231,6 +234,7 @@ pub static UPRIGHT: Scene = Scene {
     name: "upright_rod",
     title: "A rod upright on its pin, and one that leans by 10⁻⁹ rad",
     about: "The one stays for ever, the other falls as θ₀ cosh ω₀t, ω₀² = 3g/2L.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| Ok(Vec::new())),
     checks: &[
         at_fixed_step("motion in 10 s, |x| + |θ|", 0.0, || {
@@ -263,6 +267,7 @@ pub static MINUTE: Scene = Scene {
     name: "pendulum_for_a_minute",
     title: "Pendulums from 60° for a minute",
     about: "A point on a massless rod and a rod on a pin keep their energy, counted from the lowest point: mgL(1 − cos θ₀).",
+    reference: Reference::Law,
     answer: Answer::Numbers(|| {
         let [of_point, of_rod] =
             [point(PI / 3.0)?, pinned(PI / 3.0)?].map(|mut world| watch(&mut world, 60.0));

@@ -7,7 +7,7 @@ use crate::joint::{Coefficients, Given, Hold, JointDef, JointKind, Spring};
 use crate::math::{PI, Pose, Real, Vec2, cos, exp, sin_cos, vec2};
 use crate::scenes::gauge::{at_most, worse};
 use crate::scenes::stage::{DT, G, at_fixed_step, heavy, with_tolerance};
-use crate::scenes::{Answer, Judged, Motion, Number, Scene, at, weightless};
+use crate::scenes::{Answer, Judged, Motion, Number, Reference, Scene, at, weightless};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -64,6 +64,7 @@ pub static SOFT: Scene = Scene {
     title: "Four masses on soft distance joints of 2 Hz, ζ = 0, 0.1, 1 and 2",
     about: "Damped oscillators let go at x₀ = 0.25 m; at t = 1.3: −0.202254248594, −0.0442471038396, 3.48448762479e-7, \
         3.38269244791e-3. Under gravity the sag is g/ω² = 0.0621225507207.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: soft,
         exact: |t| {
@@ -126,6 +127,7 @@ pub static STIFF: Scene = Scene {
     name: "stiff_springs",
     title: "Undamped springs of ωh = 0.1 … 100",
     about: "The amplitude stays, however long the step: the damping that is seen is below a thousandth up to ωh = 0.7, and nothing grows beyond.",
+    reference: Reference::Law,
     answer: Answer::Numbers(|| {
         let mut numbers = Vec::new();
         for phase in [0.1, 0.2, 0.35, 0.5, 0.7, 1.0, 2.0, 3.0, 3.2, 5.0, 10.0, 30.0, 100.0] {
@@ -161,6 +163,7 @@ pub static TWO_MASSES: Scene = Scene {
     name: "two_masses_on_a_spring",
     title: "Masses of 1 and 3 kg on a spring",
     about: "ω = √(k/μ) with the reduced mass μ = 0.75 kg; the centre of mass is still.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: two_masses,
         exact: |t| {
@@ -207,6 +210,7 @@ pub static GRAB: Scene = Scene {
     name: "grabbed_mass",
     title: "A mass hangs from a grab joint",
     about: "It hangs g/ω² below the point it is drawn to, and at it where the joint is hard.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         let mut numbers =
             vec![at_most("offset of a hard one (m)", grabbed(Hold::Rigid, steps)?.abs(), 1e-6)];
@@ -250,6 +254,7 @@ pub static LONG: Scene = Scene {
     name: "spring_for_a_minute",
     title: "Undamped springs of 1 Hz for a minute",
     about: "A box held by its centre, and one held by a corner, which tumbles, keep their energy.",
+    reference: Reference::Law,
     answer: Answer::Numbers(|| {
         [("centre", Vec2::zeros()), ("corner", vec2(0.5, 0.25))]
             .into_iter()
@@ -273,6 +278,7 @@ pub static ANGLE: Scene = Scene {
     name: "angle_spring",
     title: "A disk on a hinge and an undamped angle spring of 3 Hz",
     about: "θ = θ₀ cos ωt.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = weightless()?;
@@ -303,6 +309,7 @@ pub static SUSPENSION: Scene = Scene {
     name: "suspension",
     title: "A wheel let go on an undamped suspension of 1.5 Hz, its hub turned by a motor of bounded torque",
     about: "y = −(g/ω²)(1 − cos ωt), and the angle is ½τt²/I until the motor's speed.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = heavy()?;

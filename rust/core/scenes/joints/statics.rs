@@ -8,7 +8,7 @@ use crate::joint::{JointDef, JointHandle};
 use crate::math::{PI, Real, Vec2, cross, sin_cos, vec2};
 use crate::scenes::gauge::at_most;
 use crate::scenes::stage::{DT, G, at_fixed_step, heavy};
-use crate::scenes::{Answer, Judged, Motion, Number, Scene, at, weightless};
+use crate::scenes::{Answer, Judged, Motion, Number, Reference, Scene, at, weightless};
 use crate::world::World;
 
 pub static BEAM: Scene = Scene {
@@ -16,6 +16,7 @@ pub static BEAM: Scene = Scene {
     name: "welded_beam",
     title: "A beam of four rods welded end to end sticks out of a wall",
     about: "The wall bears the weight W and the moment W·L/2; the weld at x what is beyond it.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         const RODS: usize = 4;
         let mut world = heavy()?;
@@ -78,6 +79,7 @@ pub static PLATFORM: Scene = Scene {
     title: "A platform swings on three parallel links, of which two would do",
     about: "It does not turn, and each point of it goes as a pendulum of the links' length from 45°. At rest the links bear the weight \
         together, the outer two alike.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || Ok(platform(PI / 4.0)?.0),
         exact: |t| {
@@ -132,6 +134,7 @@ pub static ROPE: Scene = Scene {
     name: "rope_caught_taut",
     title: "A mass on a slack rope of 1 m flies off and is caught",
     about: "The rope takes the speed along it, once, and keeps the moment of momentum: |v| = |r × v₀|/L from then on, on the circle.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(|| {
         let (mut world, body, _) = roped()?;
         let start = world.energy()?;

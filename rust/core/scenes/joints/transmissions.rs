@@ -7,7 +7,7 @@ use crate::error::Result;
 use crate::joint::{Given, JointDef, JointKind, Travel};
 use crate::math::{Pose, Real, Vec2, vec2};
 use crate::scenes::stage::{DT, G, heavy};
-use crate::scenes::{Answer, Judged, Motion, Scene, at, weightless};
+use crate::scenes::{Answer, Judged, Motion, Reference, Scene, at, weightless};
 use crate::world::World;
 
 /// Masses on either side (kg).
@@ -31,6 +31,7 @@ pub static ATWOOD: Scene = Scene {
     name: "atwood",
     title: "Atwood's machine: 1 kg and 2 kg on a rope over a pulley, and on one with a tackle of 3",
     about: "The first rises with g·r(m₂ − r·m₁)/(m₂ + r²m₁), the second falls with 1/r of that; r = 1: g(m₂ − m₁)/(m₁ + m₂).",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = heavy()?;
@@ -70,6 +71,7 @@ pub static GEARS: Scene = Scene {
     name: "gear_train",
     title: "Two gears on fixed axes, a torque on the first",
     about: "α = τ/(I₁ + r²I₂) with r teeth over teeth; the second turns against the first, r times as far.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = weightless()?;
@@ -109,6 +111,7 @@ pub static RACK: Scene = Scene {
     name: "rack_and_pinion",
     title: "A torque on a pinion drives a rack on a slider",
     about: "α = τ/(I + mr²), and the rack goes r times the angle.",
+    reference: Reference::ClosedForm,
     answer: Answer::Motion(Motion {
         build: || {
             let mut world = weightless()?;

@@ -6,7 +6,7 @@ use crate::error::Result;
 use crate::math::{Real, cos, sin_cos, vec2};
 use crate::scenes::gauge::{Gauge, at_most};
 use crate::scenes::stage::DT;
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::shapes::Shape;
 use crate::solvers::Solver;
 use crate::world::World;
@@ -20,6 +20,7 @@ pub static TALL: [Scene; 2] = [
         name: "stack_of_20_solved",
         title: "Stack of 20 boxes, all rows at once",
         about: ABOUT,
+        reference: Reference::Law,
         answer: Answer::Numbers(|| stand(tower::<20>)),
         checks: &[],
     },
@@ -28,6 +29,7 @@ pub static TALL: [Scene; 2] = [
         name: "stack_of_100_solved",
         title: "Stack of 100 boxes, all rows at once",
         about: ABOUT,
+        reference: Reference::Law,
         answer: Answer::Numbers(|| stand(tower::<100>)),
         checks: &[],
     },
@@ -50,6 +52,7 @@ pub static RATIOS: Scene = Scene {
     about: "Two boxes of 1 m whose masses are as 10⁻⁶ to 10⁶, the heavier ones above, for 10 s with the solver pinned to newton. They \
         stand. A fall by 1 cm and 4 s of rest take about as many factorisations whatever the ratio up to 10⁵; with 10⁶ on the light one the \
         last digit of its load is a velocity that moves it, and every other substep takes one.",
+    reference: Reference::Law,
     answer: Answer::Numbers(ratios),
     checks: &[],
 };
@@ -60,6 +63,7 @@ pub static CARDS: Scene = Scene {
     title: "Two cards, and a house of five storeys",
     about: "Two cards of length L with round ends of radius r lean on one another, 25° from the vertical. They stand where \
         μ ≥ ½tan 25°/(1 + r/(L cos 25°)), 0.2331 for thin ones. A house of five storeys with μ = 0.6 stands for a minute. By newton.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(cards),
     checks: &[],
 };
@@ -70,6 +74,7 @@ pub static OVERHANG: Scene = Scene {
     title: "Bricks that overhang",
     about: "Each of n bricks of length 1 m reaches beyond the one below by 1/2i, i counted from the top: 1.0417 m for 4, \
         1.4645 m for 10. At 0.98 of it they stand, at 1.02 they fall. By newton.",
+    reference: Reference::ClosedForm,
     answer: Answer::Numbers(overhang),
     checks: &[],
 };

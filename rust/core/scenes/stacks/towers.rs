@@ -4,7 +4,7 @@ use crate::body::{BodyDef, BodyKind, Friction, Surface};
 use crate::error::Result;
 use crate::math::{Real, vec2};
 use crate::scenes::gauge::{Gauge, at_most};
-use crate::scenes::{Answer, Number, Scene};
+use crate::scenes::{Answer, Number, Reference, Scene};
 use crate::shapes::Shape;
 use crate::world::World;
 
@@ -17,6 +17,7 @@ pub static TEN: Scene = Scene {
     name: "stack_of_10",
     title: "Stack of 10 boxes",
     about: ABOUT,
+    reference: Reference::Law,
     answer: Answer::Numbers(|| stand(tower::<10>, 4.0, 60)),
     checks: &[],
 };
