@@ -7,7 +7,7 @@
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .NOTPARALLEL:
-.PHONY: help report report-peers test check bench count needs peers peers-check docs package test-deep test-full clean
+.PHONY: help report report-peers test check bench count needs accuracy peers peers-check docs package test-deep test-full clean
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet
@@ -47,6 +47,9 @@ bench: ## Measure speed
 count: ## Count instructions a step (needs valgrind)
 	cargo build --release --example instructions --locked
 	$(PYTHON) benches/count.py $(CARGO_TARGET_DIR)/release/examples/instructions
+
+accuracy: report ## The report, and the tables of docs/accuracy.md from it
+	$(BIN)/python benches/accuracy.py docs/accuracy.json docs/accuracy.md report/rows.json
 
 needs: .venv/installed ## Count what scenes and features cost, for the report's page (needs valgrind; five minutes)
 	cargo build --release --example instructions --locked
