@@ -1,5 +1,6 @@
 //! A substep of the fluid: what is near what, divergence, forces, pressure, motion.
 
+use super::balance::Balance;
 use super::cells::Cells;
 use super::kernel::Kernel;
 use super::pairs::{Around, Pair, Pairs};
@@ -35,6 +36,10 @@ pub struct Flow {
     inverse_density: Vec<Real>,
     density: Vec<Real>,
     viscosity: Vec<Real>,
+    /// What jitter of light fluids under pressure is braked by (Pa·s).
+    stiff: Vec<Real>,
+    /// What pressures are to keep: parts of kernels that are filled, of light fluids their means.
+    filled: Vec<Real>,
     target: Vec<Real>,
     rates: Vec<Real>,
     /// Velocities before the pressures.
@@ -53,6 +58,7 @@ pub struct Flow {
     pub impulses: Vec<Twist>,
     columns: pressure::Columns,
     braking: viscosity::Columns,
+    balance: Balance,
 }
 
 /// Part of the overdensity that is taken back in a substep, so that it sets nothing swinging.
@@ -155,6 +161,7 @@ impl Flow {
         let particles = &mut fluids.particles;
         self.around.resize(n, Around::default());
         self.pairs.sum_around(&self.inverse_density, &mut self.around, &self.team);
+        self.balance(area * kernel.value(0.0));
         let touches = (&self.touches.list[..], &self.touches.wet[..]);
         let own = (&self.inverse_density[..], area);
         pressure::diagonal(touches, &mut self.around, own, &mut self.diagonal);
@@ -171,13 +178,32 @@ impl Flow {
         let parts = self.around.iter().map(|around| around.part + own);
         particles.compressions.clear();
         particles.compressions.extend(parts);
+        self.filled.clone_from(&particles.compressions);
+        self.balance.even(&self.pairs, &mut self.filled, &self.team);
+    }
+
+    /// Lets the same pressure everywhere exert no force on what is light; `own` is what a particle adds to its own part.
+    fn balance(&mut self, own: Real) {
+        let Self { balance, pairs, around, touches, density, rates, .. } = self;
+        balance.choose(density);
+        if !balance.at_work() {
+            return;
+        }
+        rates.clear();
+        rates.extend(around.iter().map(|around| around.part + own));
+        for touch in &touches.list {
+            rates[touch.particle as usize] += touch.part;
+        }
+        balance.keep(|i| rates[i] > LOOSE);
+        balance.correct(pairs, (around, &touches.list), &self.team);
+        pairs.sum_around(&self.inverse_density, around, &self.team);
     }
 
     /// Takes back the divergence that the last step left, where the fluid is dense.
     fn relax(&mut self, fluids: &mut Fluids, h: Real) {
         let particles = &mut fluids.particles;
         self.converge(&particles.velocities);
-        let parts = self.rates.iter().zip(&particles.compressions);
+        let parts = self.rates.iter().zip(&self.filled);
         self.target.clear();
         self.target.extend(parts.map(|(rate, part)| h * rate + (part - LOOSE).min(0.0)));
         let mut pressures = std::mem::take(&mut particles.relaxing);
@@ -209,7 +235,7 @@ impl Flow {
         for (wet, change) in self.touches.wet.iter_mut().zip(changes) {
             wet.twist += Twist::new(-change.linear, -change.angular);
         }
-        let parts = self.rates.iter().zip(&fluids.particles.compressions).zip(&self.diagonal);
+        let parts = self.rates.iter().zip(&self.filled).zip(&self.diagonal);
         let lightest = self.density.iter().copied().fold(Real::INFINITY, Real::min);
         self.target.clear();
         self.target.extend(parts.map(|((rate, part), diagonal)| {
@@ -241,6 +267,7 @@ impl Flow {
         for (position, velocity) in particles.positions.iter_mut().zip(&particles.velocities) {
             *position += velocity * h;
         }
+        self.balance.spread(&mut particles.positions, fluids.spacing);
     }
 
     /// Adds the loads of the pressures to the impulses.

@@ -6,6 +6,7 @@
 //! substep. A substep of length h: what is near what; pressures that take back the divergence; gravity, viscosity;
 //! pressures that keep the density, found together with what contacts and joints do to the bodies; motion.
 
+mod balance;
 mod cells;
 mod flow;
 mod kept;

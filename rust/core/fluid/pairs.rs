@@ -133,6 +133,11 @@ impl Pairs {
         });
     }
 
+    /// Takes V W (φ_i − φ_j) from the slopes.
+    pub fn lean(&mut self, potential: &[Pair], team: &Team) {
+        each(team, &mut self.chunks[..self.used], &|chunk: &mut Chunk| chunk.lean(potential));
+    }
+
     /// Calls with both particles of each pair.
     pub fn visit(&self, mut call: impl FnMut(usize, usize)) {
         for chunk in &self.chunks[..self.used] {
@@ -270,6 +275,20 @@ impl Chunk {
     fn weigh(&mut self, kernel: &Kernel, area: Real) {
         self.values.resize(self.slopes.len(), 0.0);
         weigh(kernel, area, &mut self.slopes, &mut self.values);
+    }
+
+    fn lean(&mut self, potential: &[Pair]) {
+        let (own, mut k) = (&potential[self.start..self.reach], 0);
+        for (i, end) in self.ends.iter().enumerate() {
+            while k < *end as usize {
+                let (first, second, weight) =
+                    (own[i], own[self.others[k] as usize], self.values[k]);
+                for axis in 0..2 {
+                    self.slopes[k][axis] -= weight * (first[axis] - second[axis]);
+                }
+                k += 1;
+            }
+        }
     }
 
     /// Calls with both particles of each pair and its number.

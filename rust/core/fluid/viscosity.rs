@@ -20,6 +20,8 @@ pub struct Friction<'a> {
     pub positions: &'a [Vec2],
     /// Viscosity at each particle (Pa·s).
     pub viscosity: &'a [Real],
+    /// What brakes a particle and each of its neighbours besides (Pa·s): see `Balance::stiffen`.
+    pub stiff: &'a [Real],
     /// Density of each particle (kg/m²).
     pub density: &'a [Real],
     /// Area of a particle (m²).
@@ -155,6 +157,7 @@ impl Friction<'_> {
             // Of two viscosities the harmonic mean: the stress is the same on both sides.
             let sum = viscosity[i] + viscosity[j];
             let mean = if sum > 0.0 { 2.0 * viscosity[i] * viscosity[j] / sum } else { 0.0 };
+            let mean = mean + self.stiff[i].max(self.stiff[j]);
             let pull = -factor * mean * (slope[0] * way.x + slope[1] * way.y) / square;
             [
                 pull * (velocities[j][0] - velocities[i][0]),
@@ -213,7 +216,8 @@ impl Friction<'_> {
     /// The diagonal of M − h L.
     fn measure(&self, diagonal: &mut Vec<Real>, bodies: &mut Vec<[Real; 3]>) {
         diagonal.clear();
-        diagonal.extend(self.density.iter().zip(self.viscosity).map(|(density, viscosity)| {
+        let braked = self.viscosity.iter().zip(self.stiff).map(|(own, more)| own + more);
+        diagonal.extend(self.density.iter().zip(braked).map(|(density, viscosity)| {
             // Of the neighbours what they are on a lattice: close enough to scale by.
             self.area * density + self.h * viscosity * LATTICE
         }));

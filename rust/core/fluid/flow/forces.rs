@@ -98,7 +98,9 @@ impl Flow {
         particles.velocities.iter_mut().for_each(|velocity| *velocity += gravity * h);
         self.draw(fluids, h);
         let particles = &mut fluids.particles;
-        if self.viscosity.iter().all(|viscosity| *viscosity == 0.0) {
+        let pressures = (&particles.pressures[..], &particles.relaxing[..]);
+        self.balance.stiffen(pressures, &self.density, (area, h), &mut self.stiff);
+        if self.viscosity.iter().chain(&self.stiff).all(|viscosity| *viscosity == 0.0) {
             return;
         }
         self.even_out(&particles.positions, area);
@@ -107,6 +109,7 @@ impl Flow {
             touches: &self.touches,
             positions: &particles.positions,
             viscosity: &self.viscosity,
+            stiff: &self.stiff,
             density: &self.density,
             area,
             h,
