@@ -22,6 +22,10 @@ pub trait Matter {
     /// Adds an impulse (N·s) to a node in this substep.
     fn push(&mut self, node: u32, impulse: Vec2);
 
+    /// Goes a step of Newton's method towards the velocities after the substep under the impulses that it has got, which are
+    /// answered through the same A⁻¹ as [`Matter::respond`] tells of.
+    fn approach(&mut self) -> Effort;
+
     /// Finds the velocities after the substep under the impulses that it has got.
     fn settle(&mut self) -> Effort;
 

@@ -246,6 +246,11 @@ pub static CATALOGUE: &[&Scene] = &[
     &soft::RIGID,
     &soft::AREA,
     &soft::RANDOM,
+    &soft::PRESS,
+    &soft::STAIRS,
+    &soft::BALLOON,
+    &soft::CART,
+    &soft::ROPES,
 ];
 
 /// Scenes that take minutes; `make test-full` runs them.
@@ -263,6 +268,11 @@ pub static LONG: &[&Scene] = &[
     &extremes::ALL_RANDOM[7],
     &extremes::ALL_RANDOM[8],
     &extremes::ALL_RANDOM[9],
+    &soft::MINUTES[0],
+    &soft::MINUTES[1],
+    &soft::MINUTES[2],
+    &soft::MINUTES[3],
+    &soft::MINUTES[4],
 ];
 
 /// The scene of this id or name, whatever the case.

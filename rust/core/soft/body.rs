@@ -49,6 +49,8 @@ pub struct Moving {
 pub struct Linear {
     pub h: Real,
     pub at: Vec<Vec2>,
+    /// Half of the way of the substep, if it is of its middle.
+    pub way: Vec<Vec2>,
     /// Without what makes the stiffness indefinite.
     pub definite: bool,
     /// For relaxing: M + h²K.
@@ -92,6 +94,9 @@ pub(super) struct Work {
     pub change: Vec<Vec2>,
     pub residual: Vec<Vec2>,
     pub impulses: Vec<Vec2>,
+    /// Of those, what Δv answers to; and the size of the error that the last step of Newton's method met, squared (J), infinite before the first.
+    pub answered: Vec<Vec2>,
+    pub size: Real,
     pub deformations: Vec<Tensor>,
     pub column: Vec<Vec2>,
     /// Where a rigid motion brings the nodes.

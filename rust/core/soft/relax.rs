@@ -293,7 +293,8 @@ impl SoftBody {
         for _ in 0..MOST {
             effort.iterations += 1;
             let at = self.work.end.clone();
-            let linear = Linear { h: self.work.h, at: at.clone(), definite: true, end: true };
+            let (h, way) = (self.work.h, Vec::new());
+            let linear = Linear { h, at: at.clone(), way, definite: true, end: true };
             (self.moving.linear, self.work.factored) = (Some(linear), false);
             self.refresh(effort);
             self.work.turn = crate::math::Rot::IDENTITY;

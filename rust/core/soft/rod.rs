@@ -4,7 +4,7 @@
 //! changes.
 
 use super::tensor::{Tensor, outer, scaled, sum};
-use super::triangle::{Rule, Step};
+use super::triangle::{Middle, Rule, Step};
 use crate::math::{Real, Vec2, perp};
 
 /// Stretch: ½ EA L e², e = ½(l²/L² − 1).
@@ -80,11 +80,16 @@ impl Rod {
         &self,
         (density, of): (Real, &Stiffness),
         (alpha, beta, definite): (Real, Real, bool),
-        at: &[Vec2],
+        middle: Middle<'_>,
         add: &mut dyn FnMut((u32, u32), Tensor),
     ) {
-        let way = self.way(at);
-        let pull = of.stretch * self.strain(at) / self.length;
+        let way = self.way(middle.at);
+        let half = if middle.way.is_empty() { Vec2::zeros() } else { self.way(middle.way) };
+        // ½(e₀ + e₁) and e₁ − e₀ of the whole step.
+        let square = self.length * self.length;
+        let mean = 0.5 * ((way.norm_squared() + half.norm_squared()) / square - 1.0);
+        let change = 2.0 * way.dot(&half) / square;
+        let pull = of.stretch * (mean + of.viscosity / middle.h * change) / self.length;
         let along =
             of.stretch * (alpha + beta * of.viscosity) / (self.length * self.length * self.length);
         let across = alpha * if definite { pull.max(0.0) } else { pull };

@@ -6,7 +6,7 @@
 
 use super::Spot;
 use super::body::{Linear, Parts, SoftBody, Work};
-use super::triangle::{Rule, Step};
+use super::triangle::{Middle, Rule, Step};
 use crate::constraints::matter::{Effort, Matter};
 use crate::forces::Ledger;
 use crate::math::{Real, Rot, Vec2, cross, hypot, perp};
@@ -36,7 +36,7 @@ impl SoftBody {
 
     fn start(&mut self, h: Real) {
         let Self { moving, work, parts, .. } = self;
-        (work.h, work.relaxes, work.based) = (h, false, false);
+        (work.h, work.relaxes, work.based, work.size) = (h, false, false, Real::INFINITY);
         work.start.clone_from(&moving.positions);
         work.before.clone_from(&moving.velocities);
         let n = moving.positions.len();
@@ -70,16 +70,81 @@ impl SoftBody {
         }
     }
 
+    /// Goes a step of Newton's method, once the impulses that have come since the last are answered.
+    fn approach_step(&mut self) -> Effort {
+        let mut effort = Effort::default();
+        if self.work.relaxes {
+            self.relax(&mut effort);
+            return effort;
+        }
+        effort.iterations += 1;
+        let first = self.work.size.is_infinite();
+        if first {
+            self.make_usable(&mut effort);
+        } else {
+            self.answer_impulses();
+        }
+        self.residual();
+        let mut size = self.newton_step();
+        // Far from where the factors are of, a step brings it nearer only as they do.
+        if !first && effort.factorisations == 0 && size > SLOW * SLOW * self.work.size {
+            self.linearise(&mut effort);
+            size = self.newton_step();
+        }
+        if !size.is_finite() {
+            self.work.relaxes = true;
+            self.drop_factors();
+            self.relax(&mut effort);
+            return effort;
+        }
+        self.work.size = size;
+        self.work.answered.clone_from(&self.work.impulses);
+        let Self { work, moving, .. } = self;
+        for (i, v) in moving.velocities.iter_mut().enumerate() {
+            work.change[i] += work.step[i];
+            *v = work.before[i] + work.change[i];
+        }
+        effort
+    }
+
+    /// Adds A⁻¹ of the impulses that have come since the last step.
+    fn answer_impulses(&mut self) {
+        let mut step = std::mem::take(&mut self.work.step);
+        step.clear();
+        let pairs = self.work.impulses.iter().zip(&self.work.answered).zip(&self.pinned);
+        step.extend(pairs.map(|((now, then), pin)| if *pin { Vec2::zeros() } else { now - then }));
+        if step.iter().any(|p| *p != Vec2::zeros()) {
+            self.solve(&mut step);
+            self.work.change.iter_mut().zip(&step).for_each(|(change, step)| *change += step);
+        }
+        self.work.step = step;
+    }
+
+    /// Makes factors of the midpoint rule where there are none of this step; whether they are new.
+    fn make_usable(&mut self, effort: &mut Effort) -> bool {
+        let usable = |linear: &Linear| linear.h == self.work.h && !linear.end;
+        let fresh = !self.moving.linear.as_ref().is_some_and(usable);
+        if fresh {
+            self.linearise(effort);
+        }
+        self.refresh(effort);
+        fresh
+    }
+
     /// Solves for Δv with the impulses as they are.
     fn solve_step(&mut self) -> Effort {
         let mut effort = Effort::default();
         if !self.work.relaxes {
+            if self.work.size.is_finite() {
+                self.answer_impulses();
+            }
             if matches!(self.iterate(&mut effort), Ended::Settled) {
                 let Self { moving, work, .. } = self;
                 let columns = work.before.iter().zip(&work.change);
                 for (v, (before, change)) in moving.velocities.iter_mut().zip(columns) {
                     *v = before + change;
                 }
+                work.answered.clone_from(&work.impulses);
                 return effort;
             }
             self.work.relaxes = true;
@@ -162,13 +227,7 @@ impl SoftBody {
     /// Newton's method for the midpoint rule, with old factors as long as they bring it forward.
     fn iterate(&mut self, effort: &mut Effort) -> Ended {
         let ([enough, rough], mut last, mut growths) = (self.enough(), Real::INFINITY, 0);
-        let usable = |linear: &Linear, h: Real| linear.h == h && !linear.end;
-        let mut fresh = false;
-        if !self.moving.linear.as_ref().is_some_and(|linear| usable(linear, self.work.h)) {
-            self.linearise(effort);
-            fresh = true;
-        }
-        self.refresh(effort);
+        let mut fresh = self.make_usable(effort);
         for _ in 0..MOST {
             effort.iterations += 1;
             self.residual();
@@ -231,8 +290,9 @@ impl SoftBody {
     fn linearise(&mut self, effort: &mut Effort) {
         let work = &self.work;
         let way = |i: usize| (work.before[i] + work.change[i] * 0.5) * (0.5 * work.h);
-        let at = work.start.iter().enumerate().map(|(i, x)| x + way(i)).collect();
-        let linear = Linear { h: work.h, at, definite: false, end: false };
+        let way: Vec<Vec2> = (0..work.start.len()).map(way).collect();
+        let at = work.start.iter().zip(&way).map(|(x, way)| x + way).collect();
+        let linear = Linear { h: work.h, at, way, definite: false, end: false };
         self.moving.linear = Some(linear);
         self.work.factored = false;
         self.refresh(effort);
@@ -267,8 +327,9 @@ impl SoftBody {
         let mut add = |pair: (u32, u32), block| matrix.add(envelope, pair, block);
         let (density, at) = (def.material.density, &linear.at[..]);
         let by = (alpha, beta, linear.definite);
-        triangles.iter().for_each(|t| t.tangent((density, moduli), by, at, &mut add));
-        rods.iter().for_each(|rod| rod.tangent((density, stiffness), by, at, &mut add));
+        let middle = Middle { at, way: &linear.way, h: linear.h };
+        triangles.iter().for_each(|t| t.tangent((density, moduli), by, middle, &mut add));
+        rods.iter().for_each(|rod| rod.tangent((density, stiffness), by, middle, &mut add));
         bends.iter().for_each(|bend| bend.tangent(stiffness, (alpha, beta), at, &mut add));
         let gas = def.gas.as_ref().zip(filling.as_ref());
         if let Some((gas, filling)) = gas.filter(|_| !linear.definite) {
@@ -369,6 +430,10 @@ impl Matter for SoftBody {
         for (node, weight) in spot.parts() {
             self.work.impulses[node as usize] += impulse * weight;
         }
+    }
+
+    fn approach(&mut self) -> Effort {
+        self.approach_step()
     }
 
     fn settle(&mut self) -> Effort {

@@ -51,6 +51,17 @@ pub struct Step {
     pub rule: Rule,
 }
 
+/// Where a step is linearised.
+#[derive(Clone, Copy, Debug)]
+pub struct Middle<'a> {
+    /// Places of the nodes in the middle of the step.
+    pub at: &'a [Vec2],
+    /// Half of their way in it; nothing where only the end counts.
+    pub way: &'a [Vec2],
+    /// Length of the step (s).
+    pub h: Real,
+}
+
 /// Where forces are taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
@@ -112,12 +123,13 @@ impl Triangle {
         }
     }
 
-    /// Hands the blocks of M + αK + βB, B the damping matrix over β, at given places. `definite`: without what makes K indefinite.
+    /// Hands the blocks of M + αK + βB, B the damping matrix over β, in the middle of a step, where the stress is that of the whole of it.
+    /// `definite`: without what makes K indefinite.
     pub fn tangent(
         &self,
         (density, moduli): (Real, &Moduli),
         (alpha, beta, definite): (Real, Real, bool),
-        at: &[Vec2],
+        middle: Middle<'_>,
         add: &mut dyn FnMut((u32, u32), Tensor),
     ) {
         let mut blocks = [[[0.0; 4]; 6]; 6];
@@ -128,8 +140,11 @@ impl Triangle {
             }
         }
         let weight = self.area / 3.0;
-        for (f, gradients) in self.deformation(at).iter().zip(&self.gradients) {
-            let point = Linear::new(moduli, f, (alpha * weight, beta * weight, definite));
+        let way = if middle.way.is_empty() { [[0.0; 4]; 3] } else { self.deformation(middle.way) };
+        let points = self.deformation(middle.at).into_iter().zip(way);
+        for ((f, half), gradients) in points.zip(&self.gradients) {
+            let by = (alpha * weight, beta * weight, definite);
+            let point = Linear::new(moduli, (&f, &half, middle.h), by);
             for (i, row) in blocks.iter_mut().enumerate() {
                 for (j, block) in row.iter_mut().enumerate().take(i + 1) {
                     *block = sum(block, &point.block(gradients[i], gradients[j]));
@@ -193,15 +208,20 @@ fn first_piola(moduli: &Moduli, step: Step, f0: &Tensor, f1: &Tensor) -> Tensor 
     };
     let mut stress = elastic(moduli, &f, growth);
     if moduli.viscosity > 0.0 && step.rule == Rule::Middle {
-        let rate = symmetric(&times(&transposed(&f), &difference(f1, f0)));
-        let by = moduli.viscosity / step.h;
-        let mut second = scaled(&rate, 2.0 * moduli.shear * by);
-        let trace = (moduli.area - moduli.shear) * (rate[0] + rate[3]) * by;
-        second[0] += trace;
-        second[3] += trace;
-        stress = sum(&stress, &times(&f, &second));
+        let change = symmetric(&times(&transposed(&f), &difference(f1, f0)));
+        stress = sum(&stress, &times(&f, &viscous_stress(moduli, step.h, &change)));
     }
     stress
+}
+
+/// Sᵥ (Pa) where Green's strain changes by this in a step of length h.
+fn viscous_stress(moduli: &Moduli, h: Real, change: &Tensor) -> Tensor {
+    let by = moduli.viscosity / h;
+    let mut second = scaled(change, 2.0 * moduli.shear * by);
+    let trace = (moduli.area - moduli.shear) * (change[0] + change[3]) * by;
+    second[0] += trace;
+    second[3] += trace;
+    second
 }
 
 /// μ(F − cof F) + (λ + μ)(J − 1) cof F.
@@ -237,12 +257,25 @@ struct Linear {
     viscous: [Real; 2],
     f: Tensor,
     left: Tensor,
+    /// The viscous stress Sᵥ.
+    stress: Tensor,
 }
 
 impl Linear {
-    fn new(moduli: &Moduli, f: &Tensor, (alpha, beta, definite): (Real, Real, bool)) -> Self {
-        let (mut square, mut growth) =
-            (moduli.shear, moduli.area * (determinant(f) - 1.0) - moduli.shear);
+    /// At F, half of whose change over the step of length h is given.
+    fn new(
+        moduli: &Moduli,
+        (f, half, h): (&Tensor, &Tensor, Real),
+        (alpha, beta, definite): (Real, Real, bool),
+    ) -> Self {
+        // The mean of J at both ends.
+        let mean = determinant(f) + determinant(half);
+        let (mut square, mut growth) = (moduli.shear, moduli.area * (mean - 1.0) - moduli.shear);
+        let mut stress = [0.0; 4];
+        if moduli.viscosity > 0.0 && !definite {
+            let change = scaled(&symmetric(&times(&transposed(f), half)), 2.0);
+            stress = scaled(&viscous_stress(moduli, h, &change), alpha);
+        }
         if definite {
             // |F|²/2 = (|α|² + |β|²)/2 and J = (|α|² − |β|²)/2 in the parts α that keep angles and β that mirror: stiffness
             // along each is the sum and the difference; what is below 0 is left out.
@@ -258,6 +291,7 @@ impl Linear {
             viscous: [beta * moduli.shear, beta * (moduli.area - moduli.shear)],
             f: *f,
             left: times(f, &transposed(f)),
+            stress,
         }
     }
 
@@ -271,6 +305,8 @@ impl Linear {
         if self.viscous[0] > 0.0 {
             let (ui, uj) = (apply(&self.f, gi), apply(&self.f, gj));
             let [shear, trace] = self.viscous;
+            let taut = gi.dot(&apply(&self.stress, gj));
+            block = sum(&block, &[taut, 0.0, 0.0, taut]);
             block = sum(&block, &scaled(&self.left, shear * along));
             block = sum(&block, &scaled(&outer(uj, ui), shear));
             block = sum(&block, &scaled(&outer(ui, uj), trace));

@@ -4,9 +4,8 @@
 //! blocks of rigid contacts and the joints; then the matter settles, nonlinear as it is, under the impulses it got, and what that leaves
 //! is swept again.
 
-use super::matter_direct::{Bearing, Saved};
+use super::matter_direct::{Direct, Saved};
 use super::matter_energy::book;
-use super::matter_lever::Lever;
 use super::matter_ties::{End, MatterTie, remember};
 use super::{
     Group, Outcome, Settings, Surroundings, impacts, joints, kick, place_blocks, prepare_rows,
@@ -33,8 +32,9 @@ pub trait Matters {
     fn keep(&mut self, group: &Group, h: Real, points: &[Point]);
 }
 
-/// Rounds of sweeping and settling in a substep.
-const ROUNDS: usize = 6;
+/// Rounds of a substep in which the rows are solved and the matter goes a step of Newton's method, and rounds after those in which it settles.
+const NEARING: usize = 12;
+const SETTLING: usize = 6;
 /// Times that points are swept in a round; after all but the last they are solved at once.
 const ATTEMPTS: u32 = 8;
 /// Sweeps of the last time, as a multiple of the world's.
@@ -62,12 +62,9 @@ pub struct Scratch {
     pub(super) velocities: Vec<Vec2>,
     /// A⁻¹ among those of each piece.
     pub(super) responses: Vec<Vec<[Real; 4]>>,
-    pub(super) dense: Vec<Real>,
-    pub(super) right: Vec<Real>,
     /// Impulses on the touched nodes.
     pub(super) pushed: Vec<Vec2>,
-    pub(super) bearing: Vec<Bearing>,
-    pub(super) levers: Vec<[Lever; 2]>,
+    pub(super) direct: Direct,
     pub(super) saved: Saved,
 }
 
@@ -146,12 +143,17 @@ fn solve(
         push(group, matters, point);
     }
     scratch.start_ties(group, h, matters);
-    let mut effort = settle_all(matters);
+    let mut effort = all(matters, |piece| piece.approach());
     scratch.gather(matters);
     let scale = scratch.aim(group, matters, h).max(fastest);
     let mut scale = scale.max(scratch.aim_ties(group, h, matters));
     let mut budget = Budget { tolerance: CALM * scale, most: settings.sweeps };
-    for round in 0..ROUNDS {
+    let (mut stale, mut near) = (false, scratch.is_empty());
+    for round in 0..NEARING + SETTLING {
+        if stale {
+            scratch.gather(matters);
+            scratch.aim(group, matters, h);
+        }
         scratch.take(matters);
         if round > 0 && !scratch.ties.is_empty() {
             scale = scratch.aim_ties(group, h, matters).max(scale);
@@ -159,12 +161,16 @@ fn solve(
         }
         let (sweeps, residual) = scratch.solve_rows(group, budget);
         outcome.sweeps += u64::from(sweeps);
-        let before = scratch.given(matters);
-        let more = settle_all(matters);
+        let given = scratch.given(matters);
+        let settles = near || round >= NEARING;
+        let more = all(matters, |piece| if settles { piece.settle() } else { piece.approach() });
         effort.iterations += more.iterations;
         effort.factorisations += more.factorisations;
+        stale = more.factorisations > 0;
         let off = scratch.off(matters).max(residual);
-        if (before == 0.0 && sweeps <= 1) || off <= budget.tolerance || round + 1 == ROUNDS {
+        near = settles || off <= budget.tolerance;
+        let still = given == 0.0 && sweeps <= 1;
+        if settles && (still || off <= budget.tolerance) || round + 1 == NEARING + SETTLING {
             outcome.residual = outcome.residual.max(off);
             break;
         }
@@ -181,10 +187,14 @@ fn solve(
     }
 }
 
-pub(super) fn settle_all(matters: &mut dyn Matters) -> Effort {
+/// Lets all pieces do something.
+pub(super) fn all(
+    matters: &mut dyn Matters,
+    mut act: impl FnMut(&mut dyn Matter) -> Effort,
+) -> Effort {
     let mut effort = Effort::default();
     for k in 0..matters.count() {
-        let own = matters.piece(k).settle();
+        let own = act(matters.piece(k));
         effort.iterations += own.iterations;
         effort.factorisations += own.factorisations;
     }

@@ -1,7 +1,7 @@
 //! What the rows of a group with matter give and take, and how they are kept from giving.
 
 use super::group::RowWork;
-use super::matter::{Matters, Scratch, apply, settle_all};
+use super::matter::{Matters, Scratch, all, apply};
 use super::{Group, Outcome, joints, settle};
 use crate::constraints::matter::{Point, Side};
 use crate::math::{Real, Vec2};
@@ -35,7 +35,7 @@ impl Scratch {
                 point.grip.impulse.iter_mut().for_each(|impulse| *impulse *= part);
             }
             self.given(matters);
-            settle_all(matters);
+            all(matters, |piece| piece.settle());
             self.follow_lead(group, matters, 1.0);
         }
     }

@@ -1,5 +1,10 @@
 //! Deformable bodies beside beam theory. L = 1 m, H = 0.1 m, E = 1 MPa, ν = 0.3, plane stress, unit thickness.
 
+mod minute;
+mod played;
+
+pub use minute::{BALLOON, CART, MINUTES, PRESS, ROPES, STAIRS};
+
 use super::{Answer, Number, Reference, Scene};
 use crate::error::Result;
 use crate::math::{PI, Real, Vec2, vec2};
