@@ -281,7 +281,8 @@ pub static LONG: &[&Scene] = &[
 /// [`Error::Invalid`] with the scenes there are.
 pub fn scene(name: &str) -> Result<&'static Scene> {
     let same = |own: &str| own.eq_ignore_ascii_case(name);
-    let found = CATALOGUE.iter().find(|scene| same(scene.id) || same(scene.name)).copied();
+    let all = CATALOGUE.iter().chain(LONG);
+    let found = all.copied().find(|scene| same(scene.id) || same(scene.name));
     found.ok_or_else(|| {
         let names: Vec<_> = CATALOGUE.iter().map(|s| format!("{} ({})", s.name, s.id)).collect();
         Error::invalid("scene", format!("{name:?}"), names.join(", "))
