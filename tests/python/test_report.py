@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
@@ -15,7 +16,8 @@ import culbuto
 from culbuto.catalogue import find
 from culbuto.report.measure import Results, measure, write_rows
 from culbuto.report.needs import counts
-from culbuto.study import Row
+from culbuto.study import Row, study
+from culbuto.study.runs import spread_of
 
 NAMES = ("projectile", "kepler", "polygons")
 VOID = {"meta", "br", "link", "img", "hr"}
@@ -45,6 +47,18 @@ def test_errors_are_the_same_bits_every_time(results: Results) -> None:
 
     assert list(map(key, results.rows)) == list(map(key, again.rows))
     assert {row.scene for row in results.rows} == {"projectile", "kepler"}
+
+
+def test_noise_is_how_far_timed_runs_of_a_row_are_apart(results: Results) -> None:
+    from culbuto.report.page import noise  # noqa: PLC0415
+
+    assert noise(results.rows) is None  # each was timed once
+    assert spread_of([1.0, 2.0, 4.0, 8.0, 16.0]) == 6 / 4
+    row = results.rows[0]
+    rows = [replace(row, spread=k / 100) for k in range(1, 22)]
+    assert noise(rows) == pytest.approx((0.11, 0.20))
+    timed = study("S1", steps=[0.1], tolerances=[], methods=["leapfrog"], repeats=5)
+    assert timed.rows[0].spread > 0
 
 
 def test_rows_and_page_say_how_far_the_reference_may_be_off(results: Results, page: Path) -> None:

@@ -9,6 +9,8 @@ from html import escape
 from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from culbuto import _native
 from culbuto.drawing import picture
 from culbuto.report import style
@@ -17,7 +19,7 @@ from culbuto.report.needs import counts
 from culbuto.report.stability import engines
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
     from pathlib import Path
 
     from culbuto.catalogue import Check, MethodCheck, Scene, Verdict
@@ -115,6 +117,15 @@ def worst(checks: Iterable[Check]) -> Check:
     return max(checks, key=share)
 
 
+def noise(rows: Sequence[Row]) -> tuple[float, float] | None:
+    """Spread of the timed runs of a row: of half of the rows, and of 95 % of them."""
+    spreads = [row.spread for row in rows if row.spread > 0]
+    if not spreads:
+        return None
+    half, most = np.percentile(spreads, (50, 95))
+    return float(half), float(most)
+
+
 def mark(method: str) -> str:
     """A method's mark in its colour, as a tiny SVG."""
     look = {**style.METHODS, **style.PEERS}.get(method)
@@ -158,6 +169,7 @@ def write_page(results: Results, folder: Path) -> list[Path]:
         panels=panels,
         scenes=[_scene(result, results.peers) for result in results.scenes],
         peers=results.peers,
+        noise=noise(results.rows),
         matrix=results.stability,
         engines=engines(results.stability),
         **_counted(counts()),

@@ -26,7 +26,8 @@ class Row:
     of constant forces, "contact_step" for a scene with contacts. `error` is the largest over
     times and bodies, relative to the scene's length, infinite where the run diverged, and
     `uncertainty` how far what it is compared with may be off itself, likewise; `seconds`
-    the median wall time of a run, `seconds_per_second` that for each simulated second; `energy`
+    the median wall time of a run, `seconds_per_second` that for each simulated second, `spread`
+    how far the timed runs are apart (from quartile to quartile, relative to the median); `energy`
     the change of the energy balance over the largest kinetic energy.
     """
 
@@ -38,6 +39,7 @@ class Row:
     uncertainty: float
     seconds: float
     seconds_per_second: float
+    spread: float
     steps: int
     rejected: int
     evaluations: int

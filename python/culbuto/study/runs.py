@@ -53,6 +53,7 @@ class Ran:
 
     poses: Floats
     seconds: float
+    spread: float
     energy: float
     steps: int
     rejected: int
@@ -75,6 +76,7 @@ def run(job: Job) -> Ran | None:
     return Ran(
         poses,
         median(times),
+        spread_of(times),
         abs(after.balance - before.balance) / largest,
         report.steps,
         report.rejected,
@@ -88,6 +90,12 @@ def prepare(world: World, method: str) -> None:
         world.closed_form = False
         world.method = method
     world.substeps = 1
+
+
+def spread_of(times: Sequence[float]) -> float:
+    """From the lower quartile to the upper, relative to the median; 0 of a single run."""
+    lower, middle, upper = np.percentile(times, (25, 50, 75))
+    return float((upper - lower) / middle)
 
 
 def _poses(world: World, job: Job) -> Floats:

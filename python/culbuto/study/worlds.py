@@ -175,6 +175,7 @@ def _row(case: Case, job: Job, run: Ran, compared: tuple[Reference, Scale]) -> R
         uncertainty=reference.uncertainty / scale.length,
         seconds=run.seconds,
         seconds_per_second=run.seconds / job.duration,
+        spread=run.spread,
         steps=run.steps,
         rejected=run.rejected,
         evaluations=run.evaluations,

@@ -38,6 +38,8 @@ pub struct Row {
     pub seconds: f64,
     /// The same for each second of world time.
     pub seconds_per_second: f64,
+    /// How far the timed runs are apart: from the lower to the upper quartile, relative to the median; 0 of a single run.
+    pub spread: f64,
     /// Steps taken.
     pub steps: u64,
     /// Steps tried again.
@@ -224,7 +226,8 @@ fn run(
         times.push(clock.elapsed().as_secs_f64());
     }
     times.sort_by(f64::total_cmp);
-    let seconds = times[times.len() / 2];
+    let quartile = |k: usize| times[(k * (times.len() - 1) + 2) / 4];
+    let seconds = quartile(2);
     let report = world.report();
     Ok(Row {
         scene: "",
@@ -233,6 +236,7 @@ fn run(
         error,
         uncertainty: 0.0,
         seconds,
+        spread: (quartile(3) - quartile(1)) / seconds,
         seconds_per_second: seconds / motion.duration,
         steps: report.steps,
         rejected: report.rejected,

@@ -82,7 +82,7 @@ pub fn solve(velocities: &mut [Velocity], blocks: &mut [Block], budget: Budget) 
     (budget.most, change)
 }
 
-/// One sweep whose pushes are not rounded to the impulses' last digits (see [`block::refine`]); `watch` sees each block
+/// One sweep whose pushes are not rounded to the impulses' last digits (see `block::refine`); `watch` sees each block
 /// with its bodies and the change of its impulses. Returns the largest change (m/s).
 pub fn refine(
     velocities: &mut [Velocity],
