@@ -28,7 +28,7 @@ report: .venv/installed ## Measure error against run time, and write report/
 	$(BIN)/culbuto report --output report
 
 # The same cases on every machine, so that a change passes or fails by what it changes; test-deep draws new ones each time.
-test: export PROPTEST_RNG_SEED ?= 2026
+test: export PROPTEST_RNG_SEED ?= 1
 test: check docs package ## Every check and every test
 	cargo test --workspace --locked
 	$(BIN)/pytest

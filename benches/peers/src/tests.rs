@@ -167,6 +167,12 @@ fn scenes_of_the_catalogue_keep_what_matters_when_they_are_translated() {
     }
     let ball = translated("elastic_ball").unwrap();
     assert_near(ball.restitution, 1.0);
+    // A rod of 1 m and 1 kg that touches nothing.
+    let rod = &translated("rod_pendulum").unwrap().bodies[0];
+    let Shape::Circle { center, radius } = rod.shapes[0] else { panic!("no disk") };
+    assert_eq!(center, vec2(0.0, 0.0));
+    assert_near(yardstick_mass(rod), 1.0);
+    assert_near(0.5 * radius * radius, 1.0 / 12.0);
     assert_eq!(translated("kepler").unwrap_err(), "a field or a schedule of forces acts");
     assert_eq!(translated("fall_with_drag").unwrap_err(), "the air resists");
 }

@@ -29,8 +29,13 @@ pub fn translate(name: &'static str, about: &'static str, world: &World) -> Tran
     if world.settings().air.density > 0.0 && defs.iter().any(|def| def.drag_coefficient > 0.0) {
         return Err("the air resists");
     }
-    let mut bodies = defs.iter().map(body).collect::<Translated<Vec<_>>>()?;
     let touches = surface(&defs, &world.settings().mixing)?;
+    let alone = touches.is_none();
+    let body = |(i, def): (usize, &BodyDef)| {
+        let stand_in = alone.then(|| disk_of(world, i)).flatten();
+        body(def, matter(def).or_else(|why| stand_in.ok_or(why))?)
+    };
+    let mut bodies = defs.iter().enumerate().map(body).collect::<Translated<Vec<_>>>()?;
     if touches.is_none() {
         bodies.iter_mut().for_each(|body| body.group = 1);
     } else if defs.iter().any(|def| def.filter != Filter::default()) {
@@ -63,7 +68,7 @@ pub fn translate(name: &'static str, about: &'static str, world: &World) -> Tran
     })
 }
 
-fn body(def: &BodyDef) -> Translated<Body> {
+fn body(def: &BodyDef, (shapes, density): (Vec<Shape>, Real)) -> Translated<Body> {
     if def.linear_damping > 0.0 || def.angular_damping > 0.0 {
         return Err("motion is damped");
     }
@@ -73,6 +78,27 @@ fn body(def: &BodyDef) -> Translated<Body> {
     if def.role != Role::Solid {
         return Err("not all shapes are solid");
     }
+    Ok(Body {
+        kind: def.kind,
+        angle: def.angle,
+        velocity: def.velocity,
+        angular_velocity: def.angular_velocity,
+        density,
+        ..Body::new(def.position, shapes)
+    })
+}
+
+/// A disk with the mass, the inertia, I = ½mr², and the centre of body i; for what touches nothing. None where nothing turns it.
+fn disk_of(world: &World, i: usize) -> Option<(Vec<Shape>, Real)> {
+    let (mass, center) = (&world.bodies().masses[i], world.bodies().local_centers[i]);
+    let radius = (2.0 * mass.inertia / mass.mass).sqrt();
+    let turns = mass.is_free() && mass.inverse_inertia > 0.0 && radius > 0.0;
+    let density = mass.mass / (PI * radius * radius);
+    turns.then(|| (vec![Shape::Circle { center, radius }], density))
+}
+
+/// Shapes and their density.
+fn matter(def: &BodyDef) -> Translated<(Vec<Shape>, Real)> {
     if def.inertia.is_some() || def.center_of_mass.is_some() {
         return Err("inertia or centre of mass are not those of the shapes");
     }
@@ -93,14 +119,7 @@ fn body(def: &BodyDef) -> Translated<Body> {
     if def.shapes.iter().any(|part| part.density.is_some_and(|own| own != def.density)) {
         return Err("shapes of a body differ in density");
     }
-    Ok(Body {
-        kind: def.kind,
-        angle: def.angle,
-        velocity: def.velocity,
-        angular_velocity: def.angular_velocity,
-        density,
-        ..Body::new(def.position, shapes)
-    })
+    Ok((shapes, density))
 }
 
 fn shape(shape: &CoreShape) -> Translated<Shape> {
