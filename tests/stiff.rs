@@ -166,6 +166,21 @@ fn what_is_not_stiff_stays_with_dop853() {
 }
 
 proptest! {
+    /// What starts at rest in the origin has no digits of its own that could say how exact it gets.
+    #[test]
+    fn constant_forces_are_met_at_any_step(dt in 1e-3..1e3_f64, torque in -5.0..5.0_f64) {
+        let mut world = world_with("radau5");
+        world.set_closed_form(false);
+        world.set_gravity(vec2(0.0, -G)).unwrap();
+        let point = BodyDef { inertia: Some(4.0), ..BodyDef::point(1.0) };
+        let body = world.add_body(point).unwrap();
+        world.body_mut(body).unwrap().set_force(Wrench { torque, ..Wrench::ZERO }).unwrap();
+        world.step(dt).unwrap();
+        let pose = world.bodies().poses[0];
+        let off = (pose.position.y + 0.5 * G * dt * dt).abs() / (G * dt * dt);
+        prop_assert!(off < 1e-13, "{:e}", off);
+    }
+
     /// An axis that is locked stays to the last bit, also where factors exchange rows.
     #[test]
     fn locked_axes_stay_in_drag(

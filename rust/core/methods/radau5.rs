@@ -311,7 +311,7 @@ impl Radau {
             stalled = if rate >= STALLED { stalled + 1 } else { 0 };
             if stalled == 2 || iteration == MOST {
                 self.rate = 1.0;
-                return Ok(change <= trial.rounding(&y.state, GAMMA / step.h));
+                return Ok(change <= trial.rounding([&y.state, &y.stage], GAMMA / step.h));
             }
             before = change;
         }

@@ -62,14 +62,15 @@ impl Scales {
         self.list.iter().enumerate().map(of_body).fold(0.0, Real::max)
     }
 
-    /// What no iteration gets below, as a relative error: places are as exact as their numbers, velocities as those at a
-    /// rate g (1/s).
-    pub fn rounding(&self, y: &[Real], g: Real) -> Real {
+    /// What no iteration between two states gets below, as a relative error: places are as exact as their numbers, velocities as
+    /// those at a rate g (1/s).
+    pub fn rounding(&self, [from, to]: [&[Real]; 2], g: Real) -> Real {
         let places = 3 * self.list.len();
+        let size = |k: usize| from[k].abs().max(to[k].abs());
         self.worst(|k| {
-            let (place, rate) = if k < places { (y[k], 1.0) } else { (y[k - places], g) };
-            let own = if k < places { 0.0 } else { y[k].abs() };
-            ROUNDINGS * Real::EPSILON * (place.abs() * rate + own)
+            let (place, rate) = if k < places { (size(k), 1.0) } else { (size(k - places), g) };
+            let own = if k < places { 0.0 } else { size(k) };
+            ROUNDINGS * Real::EPSILON * (place * rate + own)
         })
     }
 
